@@ -18,11 +18,11 @@ constexpr int channelCount = 3;
 
 using Channels = std::array<HeightSource, channelCount>;
 
-// Samples a side. The channels are sampled in turn, piece by piece, so that the place of a piece in the image
-// is computed once for the three.
+// Samples per side of a piece. The channels are sampled one after the other, piece by piece, so that the
+// place of a piece in the image is computed once for all three.
 constexpr int colourPieceSide = 65;
 
-// Samples a piece into out; its rows are stride colours apart.
+// Samples a piece into out, whose rows are `stride` colours apart.
 Result<void> samplePiece(const Channels& channels, const SampleTile& piece, glm::vec3* out,
                          std::size_t stride) {
     const auto columns = static_cast<std::size_t>(piece.columns);

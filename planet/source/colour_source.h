@@ -1,7 +1,7 @@
-// Opens a colour source: an image of the whole planet or of its six faces, behind one sampling function.
+// Opens a colour source: an image of the whole planet or of its six faces, with one sampling function.
 //
-// Images are laid out as those of heights (height_source.h), of any size: grey or RGB, 8 or 16 bits in sRGB,
-// or floats in linear light; alpha is ignored.
+// Images have the layout of height images (height_source.h) and any size: grey or RGB, 8 or 16 bits in sRGB,
+// or floats in linear light. Alpha is ignored.
 #pragma once
 
 #include <cstddef>
@@ -16,21 +16,21 @@
 
 namespace planet {
 
-// Copies share the open files. sample may be called by several threads at once.
+// Copies share the open files. Several threads may call sample at once.
 struct ColourSource {
     std::string description;  // "colour.jpg, 2048 x 1024 uint8, equirectangular"
     int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no resolution
-    // Says that six faces differ along the cube's edges so that seams will be visible; empty if they agree.
+    // The warning that six faces differ along the cube's edges, with visible seams; empty if they agree.
     std::string notice{};
 
-    // Fills out, row-major, columns x rows colours in linear light, [0, 1]. Like HeightSource::sample, it
-    // filters to the grid's spacing and gives the same bits on an edge of the cube through either face.
+    // Fills out, row-major, with columns x rows colours in linear light, [0, 1]. Like HeightSource::sample,
+    // it filters to the grid's spacing and returns the same bits on an edge of the cube from either face.
     std::function<Result<void>(const SampleTile& tile, std::span<glm::vec3> out)> sample;
 };
 
 inline constexpr std::size_t defaultColourCacheBytes = 192u << 20;
 
-// cacheBytes: the largest memory for the image. The Error names the file.
+// Opens a source. cacheBytes: memory limit for the image. The Error names the file.
 Result<ColourSource> openColourSource(const std::filesystem::path& path,
                                       std::size_t cacheBytes = defaultColourCacheBytes);
 

@@ -56,7 +56,7 @@ int ignoreMessage(TIFF*, void*, const char*, const char*, va_list) {
 }
 
 TiffPtr openTiff(const std::filesystem::path& path) {
-    // These handlers are of this file alone; OpenImageIO sets those of the process.
+    // These handlers apply to this file only; OpenImageIO sets those of the process.
     const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
                                                                                TIFFOpenOptionsFree);
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), ignoreMessage, nullptr);
@@ -65,7 +65,7 @@ TiffPtr openTiff(const std::filesystem::path& path) {
     return {TIFFOpenExt(path.c_str(), "rm", options.get()), TIFFClose};
 }
 
-// Returns the values of a tag, valid while the file is open; none if it is absent or of another type.
+// Returns the values of a tag, valid while the file is open; empty if it is absent or of another type.
 template <class T>
 std::span<const T> valuesOf(TIFF* tiff, std::uint32_t tag, TIFFDataType type) {
     const TIFFField* const field = TIFFFindField(tiff, tag, TIFF_ANY);
@@ -249,8 +249,8 @@ std::string contentOf(const std::filesystem::path& file) {
     return content;
 }
 
-// Returns the world file beside an image, whose extension is the first and last letter of the image's and a
-// w, all of it and a w, or wld.
+// Returns the world file next to an image. Its extension is the first and last letters of the image's and a
+// w, the whole extension and a w, or wld.
 std::filesystem::path worldFileBeside(const std::filesystem::path& image) {
     std::string extension = image.extension().string();
     if (extension.size() < 2) return {};
@@ -270,7 +270,7 @@ std::filesystem::path worldFileBeside(const std::filesystem::path& image) {
     return {};
 }
 
-// Returns the numbers at the beginning of a text that separates them by commas or spaces.
+// Returns the numbers at the beginning of a text, separated by commas or spaces.
 std::vector<double> numbersIn(std::string text) {
     std::replace(text.begin(), text.end(), ',', ' ');
     std::istringstream stream(text);
@@ -375,7 +375,7 @@ Result<GeoTags> readGeoTags(const std::filesystem::path& path) {
     GeoPlacement placement;
     if (!setCoordinates(tiff.get(), placement)) return tags;
     if (keys.code(rasterTypeKey) != rasterPixelIsPoint) {
-        // Raster coordinates are then those of a pixel's corner.
+        // The raster coordinates are then those of a pixel's corner.
         placement.x[0] += (placement.x[1] + placement.x[2]) / 2;
         placement.y[0] += (placement.y[1] + placement.y[2]) / 2;
     }

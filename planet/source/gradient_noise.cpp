@@ -11,7 +11,7 @@ struct Gradient {
     double x, y, z;
 };
 
-// The middles of a cube's edges, four of them twice, so that four bits choose one.
+// The directions to the middles of a cube's edges. Four occur twice, so that four bits select one.
 constexpr std::array<Gradient, 16> gradients = {{{1, 1, 0},
                                                  {-1, 1, 0},
                                                  {1, -1, 0},

@@ -1,4 +1,4 @@
-// Hashes and gradient noise for procedural terrain. Pure functions, any thread; the same input gives the same
+// Hashes and gradient noise for procedural terrain. Pure functions, any thread. The same input gives the same
 // bits on every machine.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace planet {
 
-// Scrambles a number: the finalizer of splitmix64 (Steele, Lea and Flood 2014).
+// Scrambles a number with the finalizer of splitmix64 (Steele, Lea and Flood 2014).
 constexpr std::uint64_t scrambled64(std::uint64_t value) {
     value += 0x9E3779B97F4A7C15u;
     value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -30,10 +30,10 @@ constexpr std::uint32_t latticeHash(std::int32_t x, std::int32_t y, std::int32_t
     return h ^ (h >> 15);
 }
 
-// Perlin's improved noise (Perlin, "Improving Noise", SIGGRAPH 2002): 0 at the lattice's points, within about
-// +-1, its features about a lattice cell wide, its second derivative continuous. A hash of the cell and the
-// seed takes the place of the table of 256 permutations, so that nothing repeats after 256 cells. Each
-// coordinate within +-2^30.
+// Returns Perlin's improved noise (Perlin, "Improving Noise", SIGGRAPH 2002): 0 at lattice points, within
+// about +-1, with features about a lattice cell wide and a continuous second derivative. A hash of the cell
+// and the seed replaces the table of 256 permutations, so nothing repeats after 256 cells. Coordinates:
+// within +-2^30.
 double gradientNoise(const glm::dvec3& point, std::uint32_t seed);
 
 // The root mean square of gradientNoise, and the mean of (1 - |noise|)^2; both measured.

@@ -19,8 +19,8 @@ namespace {
 
 constexpr int cubeEdgeCount = 12;
 
-// An edge of the cube, as the end points of its samples on two faces. Sample k lies k / (size - 1) of the way
-// from first to last on both.
+// An edge of the cube, as the end points of its samples on two faces. Sample k lies at k / (size - 1) of the
+// way from first to last on both.
 struct SharedEdge {
     std::array<FaceGridPoint, 2> first;
     std::array<FaceGridPoint, 2> last;
@@ -66,9 +66,9 @@ std::string_view sideName(const FaceGridPoint& first, const FaceGridPoint& last,
 struct EdgeDifference {
     SharedEdge edge;
     double largest = 0;
-    std::array<float, 2> values{};  // where it is largest
-    int at = 0;                     // that sample, from the edge's first
-    int samples = 0;                // that differ by more than the tolerance
+    std::array<float, 2> values{};  // where the difference is largest
+    int at = 0;                     // index of that sample, from the edge's first
+    int samples = 0;                // number of samples that differ by more than the tolerance
 };
 
 // Values are compared after a clamp to [least, most].
@@ -112,7 +112,7 @@ Result<std::vector<EdgeDifference>> differencesOf(const std::array<HeightRaster,
     return differences;
 }
 
-// "the right column of x_pos and the left column of y_pos"
+// Returns for example "the right column of x_pos and the left column of y_pos".
 std::string sidesText(const SharedEdge& edge, int cells) {
     return fmt::format("the {} of {} and the {} of {}", sideName(edge.first[0], edge.last[0], cells),
                        faceName(edge.first[0].face), sideName(edge.first[1], edge.last[1], cells),
@@ -166,7 +166,7 @@ Result<ColourSeams> findColourSeams(const std::array<HeightRaster, faceCount>& f
                                     const std::string& stem) {
     TRY_ASSIGN(auto found,
                differencesOf(faces, lines, {.tolerance = visibleDifference, .least = 0, .most = 1}));
-    // Single samples may differ in lossy pictures.
+    // In lossy pictures, single samples may differ.
     std::erase_if(found, [&](const EdgeDifference& difference) {
         return std::int64_t{10} * difference.samples <= lines.size;
     });

@@ -26,7 +26,7 @@ std::string faceFileName(const std::string& stem, Face face, const std::string& 
     return fmt::format("{}_{}{}", stem, faceName(face), extension);
 }
 
-// "earth4097" out of "earth4097_z_pos".
+// Returns "earth4097" for "earth4097_z_pos"; nothing if the name has no face.
 std::optional<std::string> withoutFace(const std::string& name) {
     for (const Face face : allFaces) {
         const std::string ending = fmt::format("_{}", faceName(face));
@@ -68,8 +68,7 @@ bool isHeightExtension(const std::string& extension) {
     return false;
 }
 
-// Returns the extension that most of the faces have; .raw first, then in alphabetical order. Empty if there
-// is none.
+// Returns the extension of most faces: .raw first, then in alphabetical order. Empty if there is none.
 std::string extensionOfFaces(const std::filesystem::path& folder, const std::string& stem) {
     std::map<std::string, int> facesWith;
     std::error_code problem;
@@ -117,8 +116,8 @@ std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path) {
 
 namespace {
 
-// "noise:ridged,seed=7" is a ridged world, "detail:of=elevation.tif" elevation-detail. A bad text has no
-// files.
+// Returns the files of a terrain text. The stem of "noise:ridged,seed=7" is ridged, that of
+// "detail:of=elevation.tif" is elevation-detail. An invalid text has no files.
 HeightSourceFiles terrainFiles(const std::filesystem::path& text) {
     const Result<TerrainSource> terrain = terrainFromText(text);
     if (!terrain) return {"terrain", {}};

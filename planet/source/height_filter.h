@@ -1,8 +1,8 @@
-// The filter of the height sources: Catmull-Rom's cubic (Catmull and Rom 1974; the Keys kernel with a =
-// -1/2), stretched by s >= 1 source samples where the grid is coarser than the source, and normalised. At s =
-// 1 it passes through the samples; stretched, it averages over the grid's spacing. Internal to the library.
+// The filter of the height sources: the Catmull-Rom cubic (Catmull and Rom 1974; the Keys kernel with a =
+// -1/2), stretched by s >= 1 source samples if the grid is coarser than the source, and normalised. At s = 1
+// it passes through the samples; stretched, it averages over the grid's spacing. Internal to the library.
 //
-// Sums run in four lanes, lane k over taps k, k + 4, ..., in rising order, so that a value depends only on
+// Sums run in four lanes, lane k over taps k, k + 4, ..., in ascending order, so that a value depends only on
 // its own taps and weights. Pure functions, any thread.
 #pragma once
 
@@ -29,7 +29,7 @@ inline float sumOfLanes(Float4 v) {
     return (v[0] + v[2]) + (v[1] + v[3]);
 }
 
-// Returns the four weights at a fraction t in [0, 1] between the second and the third tap.
+// Returns the four weights at a fraction t, [0, 1], between the second and the third tap.
 inline Float4 catmullRomWeights(float t) {
     constexpr Float4 cubic{-0.5f, 1.5f, -1.5f, 0.5f};
     constexpr Float4 square{1.0f, -2.5f, 2.0f, -0.5f};
@@ -44,13 +44,13 @@ inline float catmullRom(float distance) {
     return d < 1 ? (1.5f * d - 2.5f) * d * d + 1 : ((-0.5f * d + 2.5f) * d - 4) * d + 2;
 }
 
-// Returns the number of taps of a kernel stretched by s, in whole groups of four; those past its support have
-// weight 0.
+// Returns the number of taps of a kernel stretched by s, in whole groups of four. Taps beyond its support
+// have weight 0.
 inline int tapCount(float stretch) {
     return 4 * static_cast<int>(std::ceil(stretch));
 }
 
-// Computes the weights of taps 0, 1, ... for a sample that lies `position` taps past tap 0; their sum is 1.
+// Computes the weights of taps 0, 1, ... for a sample that lies `position` taps after tap 0. Their sum is 1.
 inline void stretchedWeights(float position, float stretch, std::span<float> weights) {
     const float perTap = 1 / stretch;
     float sum = 0;

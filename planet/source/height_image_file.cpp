@@ -38,8 +38,8 @@ std::optional<SampleType> sampleTypeOf(const OIIO::TypeDesc& format) {
     return static_cast<SampleType>(found - baseTypes.begin());
 }
 
-// Opens a reader that decodes on the calling thread, because the bake has its own threads, and gives colours
-// as they are stored, not multiplied by alpha.
+// Opens a reader that decodes on the calling thread, because the bake has its own threads, and returns
+// colours as stored, not multiplied by alpha.
 ReaderPtr openReader(const std::filesystem::path& path) {
     OIIO::ImageSpec wish;
     wish.attribute("oiio:UnassociatedAlpha", 1);
@@ -100,7 +100,7 @@ Result<ImageLayout> layoutOf(const std::filesystem::path& path, const OIIO::Imag
     const int storedBits = spec.get_int_attribute("oiio:BitsPerSample", pngBits(path));
     const int readBits = static_cast<int>(spec.format.size()) * 8;
     if (storedBits != 0 && storedBits != readBits) {
-        // The samples are scaled to the next whole type, so the file's own values are lost.
+        // The reader scales samples to the next larger integer type, so the file's own values are lost.
         return badInput(fmt::format("{}: has {} bits per sample; expected 8, 16 or 32", file, storedBits));
     }
     if (spec.tile_width > 0 && spec.tile_pixels() > maxTileSamples) {
@@ -128,7 +128,7 @@ Result<void> checkIsFile(const std::filesystem::path& path) {
 
 }  // namespace
 
-// The readers that are not in use; another is opened if none is left.
+// The readers that are not in use. Another one is opened if none is free.
 struct ImageFile::Readers {
     std::mutex mutex;
     std::vector<ReaderPtr> idle;
@@ -161,7 +161,7 @@ Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& 
     TRY(checkIsFile(path));
     ReaderPtr reader = openReader(path);
     if (!reader) {
-        OIIO::geterror();  // about its plug-ins or its decoders; kept for the next failure if nobody takes it
+        OIIO::geterror();  // clears the error, which would otherwise be reported with the next failure
         return badInput(fmt::format(
             "{}: is not a readable image; expected GeoTIFF, TIFF, PNG, JPEG or another image format",
             path.string()));
@@ -178,7 +178,7 @@ Result<std::shared_ptr<ImageFile>> ImageFile::open(const std::filesystem::path& 
 
 namespace {
 
-// Some readers fail without a message, and libtiff with the row 2^32 - 1.
+// Returns the reason of a failure. Some readers fail without a message, and libtiff with the row 2^32 - 1.
 std::string reasonOf(const OIIO::ImageInput& reader) {
     const std::string error = reader.geterror();
     const bool tellsNothing = error.empty() || error.find("4294967295") != std::string::npos;

@@ -88,8 +88,7 @@ HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<c
 Result<HeightBlockCache::Block> HeightBlockCache::get(
     std::uint64_t key, const std::function<Result<std::vector<float>>()>& load) {
     if (Block kept = find(key)) return kept;
-    // The block is loaded without the lock: two threads may load the same block, which costs time but is
-    // correct.
+    // The block is loaded without the lock. Two threads may load the same block, which is slower but correct.
     TRY_ASSIGN(auto loaded, load());
     Block block = std::make_shared<const std::vector<float>>(std::move(loaded));
     insert(key, block);

@@ -1,5 +1,5 @@
-// A rectangular grid of heights in metres from an image or a raw file: a small one is held whole, others are
-// read block by block through a cache of bounded size. Internal to the library.
+// A rectangular grid of heights in metres from an image or a raw file. Small ones are kept whole in memory;
+// others are read block by block through a cache of bounded size. Internal to the library.
 #pragma once
 
 #include <cstddef>
@@ -29,26 +29,26 @@ std::size_t bytesOf(SampleType type);
 // The conversion of stored values to metres.
 struct HeightConversion {
     SampleType type = SampleType::Int16;
-    bool swapBytes = false;    // the other byte order than this machine's
+    bool swapBytes = false;    // opposite to this machine's byte order
     double metresPerUnit = 1;  // height = offsetM + metresPerUnit * value
     double offsetM = 0;        // metres
-    bool decodesSrgb = false;  // what comes of this is a share of white in sRGB, and becomes linear light
-    std::optional<double> noDataValue;  // missing, like every value that gives no finite height
+    bool decodesSrgb = false;  // the converted values are shares of white in sRGB, and become linear light
+    std::optional<double> noDataValue;  // missing, as are all values without a finite height
     float fillM = 0;                    // height of missing samples, metres
 };
 
 struct HeightStatistics {
-    float minM = std::numeric_limits<float>::infinity();  // of all samples, filled ones included
+    float minM = std::numeric_limits<float>::infinity();  // of all samples, including filled ones
     float maxM = -std::numeric_limits<float>::infinity();
     std::uint64_t missingCount = 0;
 };
 void addTo(HeightStatistics& sum, const HeightStatistics& part);
 
-// Converts out.size() samples; native holds exactly as many. Any thread.
+// Converts out.size() samples; native has exactly as many. Any thread.
 HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<const std::byte> native,
                                  std::span<float> out);
 
-// Caches the blocks used last, at most maxBytes besides those in use. Any thread.
+// Caches the most recently used blocks: at most maxBytes besides those in use. Thread-safe.
 class HeightBlockCache {
 public:
     using Block = std::shared_ptr<const std::vector<float>>;
@@ -57,7 +57,7 @@ public:
 
     // Returns the block of a key; calls load() if it is not cached.
     Result<Block> get(std::uint64_t key, const std::function<Result<std::vector<float>>()>& load);
-    std::size_t bytes() const;  // held now
+    std::size_t bytes() const;  // currently cached
 
 private:
     struct Entry {
@@ -69,7 +69,7 @@ private:
 
     const std::size_t maxBytes_;
     mutable std::mutex mutex_;
-    std::list<Entry> entries_;  // last used first
+    std::list<Entry> entries_;  // most recently used first
     std::unordered_map<std::uint64_t, std::list<Entry>::iterator> byKey_;
     std::size_t bytes_ = 0;
 };
@@ -81,37 +81,37 @@ struct RasterRect {
     int height = 0;
 };
 
-// Copies share the open files. Any thread may call every function.
+// Copies share the open files. Thread-safe.
 class HeightRaster {
 public:
     struct Blocks {
-        int width = 0;  // samples a block; those at the right and bottom edges stick out
+        int width = 0;  // samples per block; blocks extend beyond the right and bottom edges
         int height = 0;
-        // Fills a block's native samples, row-major; those that stick out may hold anything.
+        // Fills a block's native samples, row-major; samples beyond the edges may have any value.
         std::function<Result<void>(int blockX, int blockY, std::span<std::byte> native)> read;
         std::shared_ptr<HeightBlockCache> cache;
-        int cacheSlot = 0;  // tells rasters that share a cache apart, [0, 8)
+        int cacheSlot = 0;  // distinguishes rasters that share a cache, [0, 8)
     };
 
     HeightRaster() = default;
     static HeightRaster whole(int width, int height, std::vector<float> heightsM,
                               const HeightStatistics& statistics);
-    // statistics: if they are known already, which saves the scan.
+    // statistics: if already known, to avoid the scan.
     static HeightRaster inBlocks(int width, int height, const HeightConversion& conversion, Blocks blocks,
                                  const std::optional<HeightStatistics>& statistics = {});
 
     int width() const { return width_; }
     int height() const { return height_; }
 
-    // Copies a rectangle of the grid; row r of it starts at out + r * strideSamples.
+    // Copies a rectangle of the grid; its row r starts at out + r * strideSamples.
     Result<void> read(const RasterRect& rect, float* out, std::size_t strideSamples) const;
 
-    // Returns the statistics of all samples; reads each sample once, a block at a time, if they are not known
-    // yet.
+    // Returns the statistics of all samples. If they are unknown, it reads each sample once, a block at a
+    // time.
     Result<HeightStatistics> statistics() const;
 
 private:
-    RasterRect blockRect(int blockX, int blockY) const;  // without what sticks out
+    RasterRect blockRect(int blockX, int blockY) const;  // clipped to the grid
     Result<std::vector<float>> loadBlock(int blockX, int blockY, HeightStatistics* statistics) const;
 
     int width_ = 0;
@@ -135,11 +135,11 @@ struct ImageLayout {
     GeoTags geoTags;       // of a TIFF
 };
 
-// A channel of an image, open for reading by several threads: each borrows its own reader.
+// A channel of an image, open for reading by several threads; each borrows a reader of its own.
 class ImageFile {
 public:
-    // colourChannel as in HeightSourceSettings; without it the image must have one grey channel. Errors:
-    // missing, unreadable, other channels, or a sample type there is no use for.
+    // colourChannel: as in HeightSourceSettings; without it the image must have one grey channel. The Error
+    // says that the file is missing or unreadable, or has other channels or an unsupported sample type.
     static Result<std::shared_ptr<ImageFile>> open(const std::filesystem::path& path,
                                                    std::optional<int> colourChannel);
     ~ImageFile();
@@ -147,9 +147,9 @@ public:
     const std::filesystem::path& path() const { return path_; }
     const ImageLayout& layout() const { return layout_; }
 
-    // Reads the native samples of the tile that holds (x, y), counted from the first sample.
+    // Reads the native samples of the tile that contains (x, y), counted from the first sample.
     Result<void> readTile(int x, int y, std::span<std::byte> native);
-    // Reads the native samples of rows [firstRow, firstRow + count); ascending calls are fastest.
+    // Reads the native samples of rows [firstRow, firstRow + count). Ascending calls are fastest.
     Result<void> readRows(int firstRow, int count, std::span<std::byte> native);
 
 private:
@@ -165,17 +165,17 @@ private:
 struct RasterMemory {
     std::shared_ptr<HeightBlockCache> cache;
     int cacheSlot = 0;
-    std::size_t wholeLimitBytes = 0;  // an untiled image is held whole up to this
+    std::size_t wholeLimitBytes = 0;  // an untiled image up to this size is kept whole
 };
 
-// Opens an image. A tiled image is read tile by tile. An untiled one is held whole if it fits; else it is
-// copied once to a temporary file without a name, which disappears with the raster even if the program is
-// killed.
+// Opens an image. A tiled image is read tile by tile. An untiled one is kept whole in memory if it fits.
+// Otherwise it is copied once to a nameless temporary file, which disappears with the raster even if the
+// program is killed.
 Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
                                      const HeightConversion& conversion, const RasterMemory& memory,
                                      const FileCalls& calls = systemFileCalls());
 
-// Opens a headerless file of size x size samples, rows from the top. The caller has checked its length.
+// Opens a headerless file of size x size samples, rows from the top. The caller must check its length.
 Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
                                    const HeightConversion& conversion, const RasterMemory& memory,
                                    const FileCalls& calls = systemFileCalls());

@@ -21,8 +21,8 @@ constexpr int spillBlockWidth = 256;         // samples
 constexpr int spillBlockHeight = 64;         // samples
 constexpr std::size_t bandBytes = 8u << 20;  // rows of an image read at once
 
-// Creates a file without a name in the system's temporary folder, so that it disappears even if the program
-// is killed. On file systems without such files it has a name for a moment.
+// Creates a nameless file in the system's temporary folder, so that it disappears even if the program is
+// killed. On file systems without such files it briefly has a name.
 Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& calls) {
     std::error_code problem;
     const std::filesystem::path folder = std::filesystem::temp_directory_path(problem);
@@ -39,7 +39,7 @@ Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& cal
     return std::make_shared<const OpenFile>(descriptor, name, calls);
 }
 
-// The layout of the temporary file: whole blocks one after another, row-major, at the edges too.
+// The layout of the temporary file: whole blocks one after another, row-major, also at the edges.
 struct SpillLayout {
     std::uint64_t blocksAcross = 0;
     std::uint64_t blockBytes = 0;
@@ -59,7 +59,7 @@ struct SpillLayout {
     }
 };
 
-// Writes whole rows of the image that lie in one row of blocks.
+// Writes whole rows of the image that lie within one row of blocks.
 Result<void> spillRows(const OpenFile& file, const ImageLayout& image, int firstRow, int count,
                        std::span<const std::byte> native) {
     const SpillLayout layout(image);
@@ -81,7 +81,7 @@ Result<void> spillRows(const OpenFile& file, const ImageLayout& image, int first
 
 using RowsCallback = std::function<Result<void>(int firstRow, int count, std::span<const std::byte> native)>;
 
-// Passes all rows to the callback from the top, some at a time, never rows of two rows of blocks at once.
+// Passes all rows to the callback from the top, some at a time, but never across two rows of blocks.
 Result<void> forRows(ImageFile& image, const RowsCallback& callback) {
     const ImageLayout& layout = image.layout();
     const std::size_t rowBytes = static_cast<std::size_t>(layout.width) * bytesOf(layout.type);

@@ -15,10 +15,10 @@ namespace planet {
 
 namespace {
 
-constexpr double mostM = 1e9;  // heights and steps beyond this make no planet
+constexpr double mostM = 1e9;  // larger heights and steps are invalid
 
 Result<void> checkSettings(const HeightSourceSettings& settings) {
-    // Written so that NaN fails too.
+    // The comparison is written so that NaN fails too.
     const double metresPerUnit = settings.metresPerUnit.value_or(1);
     if (!(std::abs(metresPerUnit) > 0 && std::abs(metresPerUnit) <= mostM)) {
         return badInput(fmt::format("metresPerUnit is {}; expected a magnitude over 0, at most {}",
@@ -61,7 +61,7 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
     Result<HeightSource> source = openHeightSource(terrain.of, settings);
     if (!source) return source;
     Result<HeightSource> result = amplified(*std::move(source), *detail);
-    // The description alone must be enough to open the source again.
+    // The description must be enough to open the source again.
     if (result) result->description = wholeTerrainText(text).value_or(result->description);
     return result;
 }

@@ -1,8 +1,8 @@
 // Makes craters over rolling ground.
 //
-// The craters that reach a piece of a tile are gathered first, always in the same order: size by size, each
-// in the order of its lattice. A crater that does not reach a sample adds nothing to it, so the height does
-// not depend on the piece.
+// The craters that reach a piece of a tile are collected first, always in the same order: by size, then in
+// the order of the size's lattice. A crater that does not reach a sample adds nothing to it, so the height
+// does not depend on the piece.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,11 +15,11 @@ namespace planet {
 
 namespace {
 
-constexpr int craterPieceSide = 65;  // samples a side, of a piece that gathers its craters
+constexpr int craterPieceSide = 65;  // samples per side of a piece that collects its craters
 constexpr double rimShare = 0.2;     // of the depth
 constexpr double ejectaReach = 2.4;  // radii
-constexpr double depthsDeep = 2.5;   // heights are held to this many of the largest crater's depths
-constexpr double stepsACrater = 4;   // grid steps across the smallest that a grid holds
+constexpr double depthsDeep = 2.5;   // heights are limited to this many depths of the largest crater
+constexpr double stepsACrater = 4;   // grid steps across the smallest crater that a grid can represent
 
 struct CraterField {
     CraterTerrain settings;
@@ -33,12 +33,12 @@ struct CraterField {
 
 struct Crater {
     glm::dvec3 middle;
-    double radius = 0;  // chord, of the unit sphere
+    double radius = 0;  // chord length, on the unit sphere
     double depthM = 0;
     double flatness = 0;  // 0: a bowl, 1: a flat floor with a peak
 };
 
-// Returns the height at a distance from the middle in radii; 0 from ejectaReach on.
+// Returns the height at a distance from the middle, in radii; 0 from ejectaReach on.
 double profileM(const Crater& crater, double x) {
     const double rimM = rimShare * crater.depthM;
     if (x >= 1) {
@@ -52,8 +52,8 @@ double profileM(const Crater& crater, double x) {
     return bowlM + crater.flatness * (flatM - bowlM);
 }
 
-// Finds the crater of a cell of a size's lattice: a random point of the cell that lies near the sphere is
-// moved onto it. A shell as thick as a cell gives each cell's area one cell's share of craters.
+// Finds the crater of a cell of a size's lattice: a random point of the cell near the sphere is moved onto
+// the sphere. A shell as thick as a cell gives each area of a cell one cell's share of craters.
 bool craterOf(const CraterField& field, int size, const glm::ivec3& cell, Crater& crater) {
     const double diameter = field.diameterRad(size);
     const std::uint64_t key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.x)) << 32) ^
@@ -68,7 +68,7 @@ bool craterOf(const CraterField& field, int size, const glm::ivec3& cell, Crater
     const double distance = glm::length(point);
     if (std::abs(distance - 1) > diameter / 2 || distance == 0) return false;
     crater.middle = point / distance;
-    const double share = 0.5 + 0.5 * random(4);  // of the size's diameter
+    const double share = 0.5 + 0.5 * random(4);  // ratio of the diameter to the size's
     crater.radius = diameter / 2 * share;
     const double ofLargest = share / (1 << size);
     const double fresh = 0.35 + 0.65 * random(5);  // the rest has been filled in
@@ -77,12 +77,12 @@ bool craterOf(const CraterField& field, int size, const glm::ivec3& cell, Crater
     return true;
 }
 
-// Gathers the craters of a size that may reach a ball around a point of the sphere.
+// Collects the craters of a size that may reach a ball around a point of the sphere.
 void gather(const CraterField& field, int size, const glm::dvec3& middle, double radius,
             std::vector<Crater>& found) {
     const double diameter = field.diameterRad(size);
     const double reach = radius + ejectaReach * diameter / 2;
-    const double box = (reach + diameter / 2) / diameter;  // cells, before a point is put onto the sphere
+    const double box = (reach + diameter / 2) / diameter;  // cells, before a point is moved onto the sphere
     const glm::dvec3 at = middle / diameter;
     const glm::ivec3 low(glm::floor(at - box)), high(glm::floor(at + box));
     for (int z = low.z; z <= high.z; ++z) {

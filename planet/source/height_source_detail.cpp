@@ -1,8 +1,8 @@
 // Adds detail below a source's own resolution, in proportion to its local roughness.
 //
-// Roughness is measured on the source's own grid: at each sample, it is the range of the sample and its eight
-// neighbours, also over the edges of the cube (six at a corner of the cube). Between samples it is bilinear,
-// which gives the same on an edge of the cube from both faces.
+// Roughness is measured on the source's own grid: it is the range of a sample and its eight neighbours, also
+// across the edges of the cube (six at a corner of the cube). Between samples it is interpolated bilinearly,
+// which gives the same value on an edge of the cube from both faces.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,11 +21,11 @@ struct Detail {
     HeightSource source;
     DetailTerrain settings;
     std::vector<Octave> octaves;
-    double weights = 0;  // sum of the octaves'
+    double weights = 0;  // sum of the octaves' weights
     int cells = 0;       // of the source's own grid
 };
 
-// Samples of the source's own grid, which may reach one step over the edges of their face.
+// Samples of the source's own grid, which may extend one step beyond the edges of their face.
 class OwnGrid {
 public:
     OwnGrid(int firstColumn, int firstRow, int columns, int rows)
@@ -73,7 +73,7 @@ private:
                static_cast<std::size_t>(column - firstColumn_);
     }
 
-    // Reads a rectangle of the face, or one over one of its edges.
+    // Reads a rectangle on the face, or beyond one of its edges.
     Result<void> readPart(const Detail& detail, Face face, int left, int bottom, int right, int top) {
         const SampleTile tile = tileBetween(foldedOver({face, left, bottom}, detail.cells),
                                             foldedOver({face, right, top}, detail.cells), detail.cells);
@@ -95,7 +95,7 @@ private:
     std::vector<float> heights_;
 };
 
-// The relief of a tile's cells of the source's own grid, at their corners.
+// The relief at the corners of a tile's cells of the source's own grid.
 struct Relief {
     int firstColumn = 0;
     int firstRow = 0;
@@ -137,7 +137,7 @@ Result<Relief> reliefOf(const Detail& detail, const SampleTile& tile) {
     return relief;
 }
 
-// Returns noise within about +-the sum of the octaves' weights, with mean 0.
+// Returns noise with mean 0, within about +-the sum of the octaves' weights.
 double noiseAt(const Detail& detail, std::size_t held, const glm::dvec3& direction) {
     double sum = 0;
     for (std::size_t i = 0; i < held; ++i) {
@@ -150,7 +150,7 @@ double noiseAt(const Detail& detail, std::size_t held, const glm::dvec3& directi
     return sum;
 }
 
-// Returns the height of a noise of 1, metres.
+// Returns the height that a noise value of 1 stands for, metres.
 double heightOfNoise(const Detail& detail, double reliefM, double heightM) {
     const DetailTerrain& s = detail.settings;
     const double rough = smoothly(s.flatM, 3 * s.flatM, reliefM);

@@ -1,8 +1,8 @@
 // Samples an equirectangular image of the whole planet, north up, placed by ImagePlacement.
 //
-// The image continues without end: columns wrap, and a row beyond a pole is the row as far on this side of
-// it, half a turn on. The kernel covers a grid cell's (pi/2) / faceCells radians, divided by cos(latitude) in
-// longitude; at a pole that is the whole row.
+// The image continues without end: columns wrap, and a row beyond a pole is the row at the same distance on
+// this side, half a turn further. The kernel covers a grid cell's (pi/2) / faceCells radians, divided by
+// cos(latitude) in longitude; at a pole that is the whole row.
 
 #include <fmt/format.h>
 
@@ -26,8 +26,8 @@ namespace planet {
 
 namespace {
 
-constexpr int pieceSide = 65;                    // samples of a tile worked on at once, a side
-constexpr std::size_t regionSamples = 3u << 20;  // of the image held at once: 12 MB
+constexpr int pieceSide = 65;                    // samples per side of a piece of a tile
+constexpr std::size_t regionSamples = 3u << 20;  // samples of the image in memory at once: 12 MB
 
 // Returns the number of rows from pole to pole.
 int rowsToPole(const ImagePlacement& placement, int height) {
@@ -41,7 +41,7 @@ struct Projection {
     int height = 0;
     double columnsPerRad = 0;
     double rowsPerRad = 0;
-    double stretchAtEquator = 0;  // of the kernel in longitude, before it is held to [1, width / 4]
+    double stretchAtEquator = 0;  // of the kernel in longitude, before it is clamped to [1, width / 4]
     float stretchRows = 1;        // of the kernel in latitude
 
     Projection(const ImagePlacement& imagePlacement, int imageHeight, int faceCells)
@@ -59,10 +59,10 @@ struct Projection {
 struct PieceTaps {
     std::vector<int> firstColumn;
     std::vector<int> firstRow;
-    std::vector<int> columnGroups;      // of four taps each
-    std::vector<float> column;          // of the sample, counted from its first tap
+    std::vector<int> columnGroups;      // groups of four taps
+    std::vector<float> column;          // position of the sample, relative to its first tap
     std::vector<float> row;             // likewise
-    std::vector<float> stretchColumns;  // 0: every sample of the row weighs the same
+    std::vector<float> stretchColumns;  // 0: all samples of the row have the same weight
 
     explicit PieceTaps(std::size_t count)
         : firstColumn(count),
@@ -91,7 +91,7 @@ void tapsOfRow(const Projection& projection, const GeographicRow& places, std::s
     const double width = projection.width;
     const double middleColumn = projection.placement.zeroColumn;
     const double middleRow = projection.height / 2.0 - 0.5;
-    const double wholeRow = width / 4;  // stretched more than this, the kernel would meet itself
+    const double wholeRow = width / 4;  // a kernel with a larger stretch would overlap itself
     const int wholeRowGroups = (projection.width + 3) / 4;
     const double reachRows = 2.0 * projection.stretchRows;
     // The bias makes truncation to an int a floor.
@@ -139,8 +139,8 @@ PieceTaps tapsOfPiece(const Projection& projection, const SampleTile& piece) {
     return taps;
 }
 
-// Returns the smallest region that holds all taps. Moves columns west of the middle a turn east if that makes
-// the region narrower, across the date line.
+// Returns the smallest region that contains all taps. Moves columns west of the middle by one turn to the
+// east if that makes the region narrower, across the date line.
 Region regionOf(const Projection& projection, PieceTaps& taps) {
     const int half = static_cast<int>(projection.placement.zeroColumn + 0.5);
     int low = taps.firstColumn[0], high = low, lowMoved = low + projection.width, highMoved = 0;
@@ -162,7 +162,7 @@ Region regionOf(const Projection& projection, PieceTaps& taps) {
     return {lowMoved, top, highMoved - lowMoved, bottom - top};
 }
 
-// Reads columns, wrapped, of rows of the image.
+// Reads columns, with wrapping, of rows of the image.
 Result<void> readWrapped(const HeightRaster& image, int period, int column, int row, int columns, int rows,
                          float* out, std::size_t stride) {
     for (int done = 0; done < columns;) {
@@ -182,7 +182,7 @@ Result<void> readRegion(const HeightRaster& image, const ImagePlacement& placeme
     for (int done = 0; done < region.rows;) {
         const int turned = wrapped(region.row + done, turn);
         const bool beyondPole = turned >= image.height();
-        // The row of a pole is not repeated beyond it.
+        // The row of a pole is not repeated beyond the pole.
         const int row = beyondPole ? turn - (placement.hasPoleRows ? 0 : 1) - turned : turned;
         const int column = region.column + (beyondPole ? placement.period / 2 : 0);
         const int count = beyondPole ? 1 : std::min(region.rows - done, image.height() - row);
@@ -265,7 +265,7 @@ struct Equirectangular {
     float finished(Float4 sum) const { return std::clamp(sumOfLanes(sum), minM, maxM); }
 };
 
-// The place of a piece's samples in an image of a size.
+// The taps and the projection of a piece's samples, for an image of a certain size.
 struct PiecePlace {
     Projection projection;
     PieceTaps taps;
@@ -295,7 +295,7 @@ const PiecePlace& placeOf(const Equirectangular& source, const SampleTile& piece
     return *last;
 }
 
-// Samples a piece into out; its rows are stride samples apart.
+// Samples a piece into out, whose rows are `stride` samples apart.
 Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece, float* out,
                          std::size_t stride) {
     const PiecePlace& place = placeOf(source, piece);
@@ -345,7 +345,7 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     HeightSource source;
     source.description = fmt::format("{}, {} x {} {}, {}", path.filename().string(), layout.width,
                                      layout.height, layout.typeName, placementText(placement, layout.width));
-    // A grid step covers at most 2 / cells radians under Nowell's map.
+    // With Nowell's mapping, a grid step covers at most 2 / cells radians.
     source.naturalFaceSize = powerOfTwoCells(placement.period / std::numbers::pi) + 1;
     source.sampleCount = static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height);
     describeHeights(source, conversion, statistics);

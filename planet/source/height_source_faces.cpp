@@ -1,8 +1,8 @@
 // Samples six cube faces, each a square grid whose outermost samples lie on the cube's edges.
 //
-// Neighbouring faces repeat the samples of their common edge; files whose faces differ there by more than
-// rounding are refused. A sample on an edge or corner of the cube is taken from the first of its faces in
-// enum order, so a difference by rounding leaves no crack. The kernel reaches over an edge onto the next
+// Neighbouring faces repeat the samples of their common edge. Files whose faces differ there by more than
+// rounding are rejected. A sample on an edge or corner of the cube is taken from the first of its faces in
+// enum order, so a difference by rounding opens no crack. The kernel extends across an edge onto the next
 // face. Beyond a corner, where there is no fourth face, the rows of the next face are mirrored.
 
 #include <fmt/format.h>
@@ -29,11 +29,11 @@ namespace planet {
 
 namespace {
 
-constexpr std::size_t regionSamples = 2u << 20;  // of a face held at once: 8 MB
+constexpr std::size_t regionSamples = 2u << 20;  // samples of a face in memory at once: 8 MB
 
 struct FaceSet {
     std::array<HeightRaster, faceCount> faces;
-    int size = 0;  // samples a side
+    int size = 0;  // samples per side
     float minM = 0;
     float maxM = 0;
 
@@ -47,14 +47,14 @@ struct FaceSample {
     int row = 0;
 };
 
-// Folds a sample that lies over one edge of its face, by up to its width, down onto the next face.
+// Folds a sample beyond one edge of its face, by up to the face's width, onto the next face.
 FaceSample foldedSample(Face face, int column, int row, int size) {
     const int last = size - 1;
     const FaceGridPoint next = foldedOver({face, column, last - row}, last);
     return {next.face, next.column, last - next.row};
 }
 
-// Reads a rectangle that lies wholly over one edge of a face.
+// Reads a rectangle that lies completely beyond one edge of a face.
 Result<void> readBeyondEdge(const FaceSet& set, Face face, const RasterRect& rect, float* out,
                             std::size_t stride) {
     if (rect.width <= 0 || rect.height <= 0) return {};
@@ -79,13 +79,13 @@ Result<void> readBeyondEdge(const FaceSet& set, Face face, const RasterRect& rec
     return {};
 }
 
-// Returns the row of a face that replaces a row above its top or below its bottom beside a corner.
+// Returns the row of a face that replaces a row above its top or below its bottom next to a corner.
 int mirroredRow(int row, int size) {
     const int last = size - 1;
     return std::clamp(row < 0 ? -row : 2 * last - row, 0, last);
 }
 
-// Reads a rectangle of a face that may reach over its edges.
+// Reads a rectangle of a face that may extend beyond its edges.
 Result<void> readRegion(const FaceSet& set, Face face, const RasterRect& rect, std::vector<float>& out) {
     const auto stride = static_cast<std::size_t>(rect.width);
     out.resize(stride * static_cast<std::size_t>(rect.height));
@@ -93,7 +93,7 @@ Result<void> readRegion(const FaceSet& set, Face face, const RasterRect& rect, s
     const int bottom = rect.y + rect.height;
     const int faceLeft = std::clamp(0, rect.x, right);
     const int faceRight = std::clamp(set.size, rect.x, right);
-    // Reads the rows of the face at once, and those beyond it one by one.
+    // Reads the rows on the face at once, and those beyond it one by one.
     for (int y = rect.y; y < bottom;) {
         const bool inside = y >= 0 && y < set.size;
         const int rows = inside ? std::min(bottom, set.size) - y : 1;
@@ -118,13 +118,13 @@ Result<void> readRegion(const FaceSet& set, Face face, const RasterRect& rect, s
 struct AxisTaps {
     int tapsEach = 4;
     std::vector<int> first;
-    std::vector<float> weights;  // tapsEach a sample
+    std::vector<float> weights;  // tapsEach per sample
 
     int begin() const { return *std::min_element(first.begin(), first.end()); }
     int end() const { return *std::max_element(first.begin(), first.end()) + tapsEach; }
 };
 
-// Returns the taps of samples firstCell, firstCell + step, ...; cell k of the grid lies at source sample k
+// Returns the taps of samples firstCell, firstCell + step, ... Cell k of the grid lies at source sample k
 // (size - 1) / faceCells, which is exact, because faceCells is a power of two.
 AxisTaps tapsAlong(int firstCell, int step, int count, int faceCells, int size) {
     const double perCell = static_cast<double>(size - 1) / faceCells;
@@ -144,7 +144,7 @@ AxisTaps tapsAlong(int firstCell, int step, int count, int faceCells, int size) 
     return taps;
 }
 
-// Filters one row of source samples, from source column `column` on, to one row of the piece.
+// Filters one row of source samples, starting at source column `column`, to one row of the piece.
 void filterAcross(const AxisTaps& taps, int column, const float* samples, float* out) {
     const auto each = static_cast<std::size_t>(taps.tapsEach);
     for (std::size_t i = 0; i < taps.first.size(); ++i) {
@@ -156,7 +156,7 @@ void filterAcross(const AxisTaps& taps, int column, const float* samples, float*
     }
 }
 
-// Filters down. across: the source rows from taps.begin() on, already filtered across.
+// Filters along columns. across: the source rows starting at taps.begin(), already filtered along rows.
 void filterDown(const FaceSet& set, const AxisTaps& taps, const std::vector<float>& across,
                 std::size_t columns, float* out, std::size_t stride) {
     const int top = taps.begin();
@@ -174,7 +174,7 @@ void filterDown(const FaceSet& set, const AxisTaps& taps, const std::vector<floa
     }
 }
 
-// Samples a piece into out; its rows are stride samples apart.
+// Samples a piece into out, whose rows are `stride` samples apart.
 Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out, std::size_t stride) {
     const AxisTaps across = tapsAlong(piece.firstColumn, 1, piece.columns, piece.faceCells, set.size);
     // Rows of the grid run upwards along v, those of the source downwards.
@@ -202,9 +202,9 @@ Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out
     return {};
 }
 
-// Samples this face alone, also on the cube's edges.
+// Samples only this face, also on the cube's edges.
 Result<void> sampleOwnFace(const FaceSet& set, const SampleTile& tile, std::span<float> out) {
-    // Pieces are smaller if a sample covers many source samples, to bound memory.
+    // Pieces are smaller if a sample covers many source samples, to bound the memory.
     const int side = set.size > 64 * tile.faceCells ? 16 : 65;
     return sampleInPieces(tile, side, out, [&](const SampleTile& piece, float* to, std::size_t stride) {
         return samplePiece(set, piece, to, stride);
@@ -213,7 +213,7 @@ Result<void> sampleOwnFace(const FaceSet& set, const SampleTile& tile, std::span
 
 Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out);
 
-// Samples a line of the tile from the next face, which has the line too, into the tile's places.
+// Samples a line of the tile from the next face, which shares the line, into the tile's samples.
 Result<void> sampleFromNextFace(const FaceSet& set, const SampleTile& tile, const SampleTile& line, Face next,
                                 std::span<float> out) {
     const FaceGridPoint first =
@@ -233,7 +233,7 @@ Result<void> sampleFromNextFace(const FaceSet& set, const SampleTile& tile, cons
     return {};
 }
 
-// The recursion ends, because each call goes to faces earlier in enum order.
+// Samples a tile. The recursion ends, because each call continues with faces earlier in enum order.
 Result<void> sampleTile(const FaceSet& set, const SampleTile& tile, std::span<float> out) {
     assert(tile.faceCells > 0 && tile.columns >= 0 && tile.rows >= 0);
     assert(out.size() == samplesIn(tile));
@@ -296,7 +296,7 @@ Result<std::uint64_t> lengthOf(const std::filesystem::path& path) {
     return std::uint64_t{bytes};
 }
 
-// Returns the side of a square of so many samples, or 0.
+// Returns the side of a square of this many samples; 0 if it is no square.
 int squareSide(std::uint64_t samples) {
     const auto side = static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(samples))));
     return side * side == samples && side < (1u << 30) ? static_cast<int>(side) : 0;
@@ -304,7 +304,7 @@ int squareSide(std::uint64_t samples) {
 
 Result<int> rawSideByLength(const FaceFiles& files, const HeightSourceSettings& settings,
                             std::uint64_t bytes) {
-    // The length and half of it are never both squares, so the bits are unambiguous.
+    // The length and half of it are never both squares, so the number of bits is unambiguous.
     if (settings.rawBits != 16 && squareSide(bytes) > 0) return squareSide(bytes);
     if (settings.rawBits != 8 && bytes % 2 == 0 && squareSide(bytes / 2) > 0) return squareSide(bytes / 2);
     return badInput(
@@ -319,8 +319,8 @@ Result<int> rawSideOf(const FaceFiles& files, const HeightSourceSettings& settin
     return rawSideByLength(files, settings, bytes);
 }
 
-// Returns a hint for names that end in a number that is not the size. side: the actual samples per side;
-// below 2 if unknown.
+// Returns a hint for names that end in a number that is not the size. side: the actual samples per side; < 2
+// if unknown.
 std::string otherSizeHint(const FaceFiles& files, const HeightSourceSettings& settings, int side) {
     if (settings.rawSize || !files.sizeInName || side < 2) return {};
     return fmt::format("; if the {} in the name is not the size, use --raw-size {}", *files.sizeInName, side);

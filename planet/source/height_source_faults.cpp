@@ -1,7 +1,7 @@
 // Makes terrain by fault formation: soft steps across random planes.
 //
-// Heights are summed in whole 2^-16 m, so that faults far from a piece can be summed once, and the sum does
-// not depend on which they are.
+// Heights are summed in integers of 2^-16 m, so that faults far from a piece can be summed once, and the sum
+// does not depend on which faults these are.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace planet {
 namespace {
 
 constexpr double unitsPerM = 65536;
-constexpr double reachW = 12;  // a soft step has come to its end this many widths away: e^-12 / 2 is 3e-6
-constexpr int faultPieceSide = 33;  // samples a side, of a piece that shares its far faults
-constexpr double rangeRms = 5;      // of many faults, less than one in a million places lies beyond
+constexpr double reachW = 12;       // at this many widths a soft step ends: e^-12 / 2 is 3e-6
+constexpr int faultPieceSide = 33;  // samples per side of a piece that shares its far faults
+constexpr double rangeRms = 5;      // with many faults, less than one in a million places exceeds it
 
 struct Fault {
     glm::dvec3 normal;       // of the plane; the ground beyond it is raised
-    double latitudeRad = 0;  // of the circle that the plane cuts, seen from the normal as a pole
+    double latitudeRad = 0;  // of the circle that the plane cuts, with the normal as the pole
     std::int64_t delta = 0;  // units
 };
 
@@ -31,9 +31,9 @@ double latitudeOf(const glm::dvec3& normal, const glm::dvec3& direction) {
     return std::asin(std::clamp(glm::dot(normal, direction), -1.0, 1.0));
 }
 
-// Returns random planes whose normals are even over the sphere and whose distances from the centre are even,
-// so every place is equally likely to be cut. Planes through the centre would make each half the negative of
-// the other.
+// Returns random planes with a uniform distribution of normals over the sphere and of distances from the
+// centre, so that every place is equally likely to be cut. If planes passed through the centre, each half
+// would be the negative of the other.
 std::vector<Fault> faultsOf(const FaultTerrain& terrain) {
     std::vector<Fault> faults;
     std::uint64_t state = scrambled64(terrain.seed);
@@ -50,7 +50,7 @@ std::vector<Fault> faultsOf(const FaultTerrain& terrain) {
     return faults;
 }
 
-// Returns the share of a fault's step that is reached at an arc past it, in units of w.
+// Returns the share of a fault's step at an arc beyond it, in units of w.
 double softStep(double widths) {
     return widths < 0 ? 0.5 * std::exp(widths) : 1 - 0.5 * std::exp(-widths);
 }
@@ -58,7 +58,7 @@ double softStep(double widths) {
 struct Faults {
     std::vector<Fault> all;
     double smoothRad = 0;
-    double baseM = 0;  // of a place below all faults
+    double baseM = 0;  // height of a place below all faults
     double minM = 0;
     double maxM = 0;
 
@@ -66,7 +66,7 @@ struct Faults {
 };
 
 struct NearFaults {
-    std::int64_t farUnits = 0;  // what the others add up to
+    std::int64_t farUnits = 0;  // sum of all other faults
     std::vector<const Fault*> near;
 };
 
@@ -104,7 +104,7 @@ Result<void> samplePiece(const Faults& faults, const SampleTile& piece, float* o
     const int lastColumn = piece.columns - 1, lastRow = piece.rows - 1;
     const glm::dvec3 middle = glm::normalize(directionAt(0, 0) + directionAt(lastColumn, lastRow) +
                                              directionAt(lastColumn, 0) + directionAt(0, lastRow));
-    // A grid step covers at most 2 / faceCells radians along each side.
+    // A grid step covers at most 2 / faceCells radians along each axis.
     const double radiusRad =
         std::min(std::numbers::pi, 2.0 * (std::max(lastColumn, 1) + std::max(lastRow, 1)) / piece.faceCells);
     const double widthRad = faults.widthRad(piece.faceCells);

@@ -10,7 +10,7 @@ namespace planet {
 
 namespace {
 
-// Returns the cells of the grid that holds all octaves.
+// Returns the cells of the grid that can represent all octaves.
 int cellsFor(std::span<const Octave> octaves) {
     return naturalCells(octaves.back().cellRad / 2);
 }
@@ -51,7 +51,7 @@ HeightSource ridgedSource(const RidgedTerrain& terrain) {
     const double scaleM = terrain.amplitudeM / (weights * (1 - meanRidge));
     const auto height = [=](const glm::dvec3& direction, double stepRad) {
         double sum = 0;
-        double trust = 1;  // in the next octave
+        double trust = 1;  // weight of the next octave
         for (const Octave& octave : std::span(octaves).first(heldBy(octaves, stepRad))) {
             const double edge = std::max(0.0, 1 - std::abs(noiseOf(octave, direction)));
             const double ridge = edge * edge;

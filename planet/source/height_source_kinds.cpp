@@ -12,13 +12,13 @@ namespace planet {
 namespace {
 
 // Rounds a no-data value to a float if the samples are floats: a text such as -3.40282346638529e+38 matches
-// only then.
+// only after that.
 double asStored(double value, SampleType type) {
     const bool fits = std::abs(value) <= 3.4028235e38;
     return type == SampleType::Float && fits ? static_cast<double>(static_cast<float>(value)) : value;
 }
 
-// Takes the file's scale, offset and unit, unless the settings override them.
+// Applies the file's scale, offset and unit, unless the settings override them.
 Result<void> takeUnits(const std::string& file, const HeightSourceSettings& settings, const GeoTags& tags,
                        HeightConversion& conversion) {
     if (settings.metresPerUnit) return {};
@@ -54,7 +54,7 @@ Result<HeightConversion> conversionFor(const std::string& file, const HeightSour
         const auto bits = static_cast<int>(8 * bytesOf(type));
         conversion.metresPerUnit = isInteger ? 1 / (std::ldexp(1.0, bits) - 1) : 1;
         conversion.offsetM = 0;
-        conversion.noDataValue = settings.noDataValue;  // the file's is often a colour of the picture
+        conversion.noDataValue = settings.noDataValue;  // the file's value is often a colour of the picture
         conversion.fillM = 0;
         conversion.decodesSrgb = isInteger;
     }

@@ -1,4 +1,4 @@
-// The kinds of height source behind openHeightSource, and their common parts. Internal to the library.
+// The kinds of height source behind openHeightSource, and their shared parts. Internal to the library.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace planet {
 
-// The image must show the whole planet (image_placement.h).
+// Opens an image, which must show the whole planet (image_placement.h).
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
                                                const HeightSourceSettings& settings);
 
@@ -23,20 +23,20 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
 struct FaceFiles {
     std::string stem;               // "earth4097"
     std::string extension;          // ".raw"
-    std::optional<int> sizeInName;  // 4097: the digits that the stem ends in
+    std::optional<int> sizeInName;  // 4097: the digits at the end of the stem
     std::array<std::filesystem::path, faceCount> paths;
 };
 
-// Finds the six faces if a path names one of them or their common stem; returns nothing otherwise.
+// Finds the six faces if a path names one of them or their common stem; otherwise returns nothing.
 std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path);
 
-// MustAgree, for heights: faces that differ along their shared edges by more than rounding are an Error.
-// MayDiffer, for colours: faces that differ visibly there get a notice.
+// MustAgree, for heights: it is an Error if faces differ along their shared edges by more than rounding.
+// MayDiffer, for colours: a visible difference gives a notice.
 enum class FaceEdges : std::uint8_t { MustAgree, MayDiffer };
 Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
                                     FaceEdges edges);
 
-// Returns the conversion by the settings and, where they are not set, by the file's tags. The Error names an
+// Returns the conversion by the settings or, if they are unset, by the file's tags. The Error names an
 // unknown unit.
 Result<HeightConversion> conversionFor(const std::string& file, const HeightSourceSettings& settings,
                                        SampleType type, const GeoTags& tags);

@@ -1,8 +1,9 @@
 // Midpoint displacement on the cube, from its eight corners down to any grid, for one rectangle at a time.
 //
-// The needed samples are found from the finest grid up: each level needs its parent's samples around it and,
-// at an edge of the cube, those of the next face's first cells. So each level has a rectangle per face; these
-// are filled from the cube's corners down. Heights are integers, whose sums are exact in any order.
+// The required samples are found from the finest grid upwards: each level needs its parent's samples around
+// it and, at an edge of the cube, those of the next face's first cells. So each level has one rectangle per
+// face. These are filled from the cube's corners downwards. Heights are integers, whose sums are exact in any
+// order.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,15 +21,15 @@ namespace planet {
 namespace {
 
 constexpr int fractionBits = 30;        // the first offsets lie within +-2^30
-constexpr int measuredLevel = 6;        // grid whose extremes are looked up
-constexpr int midpointPieceSide = 129;  // samples a side, 133 kB
+constexpr int measuredLevel = 6;        // level of the grid whose extremes are measured
+constexpr int midpointPieceSide = 129;  // samples per side, 133 kB
 
 struct Midpoint {
     std::uint64_t seed = 0;
-    // Largest offsets by level, of cells' middles and of edges'.
+    // The largest offsets by level, of cells' middles and of edges' middles.
     std::array<std::int64_t, maxFaceCellsLog2 + 1> middle{};
     std::array<std::int64_t, maxFaceCellsLog2 + 1> edge{};
-    double metres = 0;  // of a height of 1
+    double metres = 0;  // per unit of height
     double offsetM = 0;
     double minM = 0;
     double maxM = 0;
@@ -49,7 +50,7 @@ struct Rect {
     }
 };
 
-// The rectangles of the faces that a level needs.
+// The rectangle of each face that a level needs.
 using Needs = std::array<std::optional<Rect>, faceCount>;
 
 std::optional<Rect>& of(Needs& needs, Face face) {
@@ -62,7 +63,7 @@ void addTo(Needs& needs, Face face, int column, int row) {
     rect->add(column, row);
 }
 
-// Adds cells beyond an edge of a face, on the next one: the corner far from the edge and the one on it.
+// Adds the cells beyond an edge of a face, on the next face: the corner far from the edge and the one on it.
 void addBeyond(Needs& needs, Face face, int farColumn, int farRow, int edgeColumn, int edgeRow, int cells) {
     const FaceGridPoint farPlace = foldedOver({face, farColumn, farRow}, cells);
     const FaceGridPoint edgePlace = placeOnFace(farPlace.face, {face, edgeColumn, edgeRow}, cells);
@@ -77,7 +78,7 @@ Needs parentsOf(const Needs& needs, int level) {
     for (const Face face : allFaces) {
         const std::optional<Rect>& rect = needs[static_cast<std::size_t>(face)];
         if (!rect) continue;
-        // >> rounds down, of negative numbers too.
+        // >> rounds down, also for negative numbers.
         const Rect wide{(rect->left - 1) >> 1, (rect->bottom - 1) >> 1, (rect->right + 2) >> 1,
                         (rect->top + 2) >> 1};
         const Rect own{std::max(wide.left, 0), std::max(wide.bottom, 0), std::min(wide.right, half),
@@ -114,13 +115,13 @@ const Patch& of(const Patches& patches, Face face) {
     return *patches[static_cast<std::size_t>(face)];
 }
 
-// Returns the random offset of a point of the cube, within +-most. Each point gets one, on the level that
-// makes it.
+// Returns the random offset of a point of the cube, within +-most. Each point has one offset, on the level
+// that adds the point.
 std::int64_t offsetAt(const Midpoint& terrain, Face face, int column, int row, int level, std::int64_t most) {
     const int cells = 1 << level;
     const glm::dvec3 point = cubePoint(face, 2 * column - cells, 2 * row - cells);
     const FaceAxes& axes = faceAxes(face);
-    // cubePoint counts the normal as 1.
+    // cubePoint's normal component is 1.
     const glm::dvec3 whole =
         (point + double(cells - 1) * axes.normal) * double(1 << (maxFaceCellsLog2 - level));
     const auto bits = [](double coordinate) {
@@ -167,7 +168,7 @@ private:
                offsetAt(terrain_, face, column, row, level_, levelOf(terrain_.edge));
     }
 
-    // Returns the middle near an edge, also over an edge of the cube.
+    // Returns the middle of a cell near an edge, also beyond an edge of the cube.
     std::int64_t middleNear(Face face, int column, int row) const {
         if (column > 0 && column < cells_ && row > 0 && row < cells_) return middleAt(face, column, row);
         const FaceGridPoint place = foldedOver({face, column, row}, cells_);
@@ -201,7 +202,7 @@ Patches filled(const Needs& needs, const HeightAt& heightAt) {
     return patches;
 }
 
-// Returns the heights of the needed parts of the grid of 2^level cells a side.
+// Returns the heights of the required parts of the grid of 2^level cells per side.
 Patches heightsOf(const Midpoint& terrain, const Needs& finest, int level) {
     std::vector<Needs> needs(static_cast<std::size_t>(level) + 1);
     needs.back() = finest;
@@ -219,8 +220,8 @@ Patches heightsOf(const Midpoint& terrain, const Needs& finest, int level) {
     return patches;
 }
 
-// Returns how far the heights of finer grids reach beyond a grid's own: five times their root mean square. A
-// mean roughly halves the variance, and an even offset adds a third of its square.
+// Returns how far the heights of finer grids may exceed those of a grid: 5 times their root mean square.
+// Taking a mean roughly halves the variance, and a uniform offset adds a third of its square.
 double reachBelow(const Midpoint& terrain, int level) {
     double variance = 0, most = 0;
     for (std::size_t l = static_cast<std::size_t>(level) + 1; l < terrain.middle.size(); ++l) {
@@ -248,7 +249,7 @@ Result<void> samplePiece(const Midpoint& terrain, const SampleTile& piece, float
     return {};
 }
 
-// Returns the offsets by level. Seeds that differ by one give different offsets everywhere.
+// Computes the offsets by level. Seeds that differ by 1 give different offsets everywhere.
 Midpoint scaledBy(const MidpointTerrain& settings) {
     Midpoint terrain;
     terrain.seed = scrambled64(settings.seed);
@@ -263,7 +264,7 @@ Midpoint scaledBy(const MidpointTerrain& settings) {
     return terrain;
 }
 
-// Returns the rectangles of the whole of a coarse grid.
+// Returns the rectangles of a whole coarse grid.
 Needs wholeCube(int cells) {
     Needs needs;
     for (const Face face : allFaces) needs[static_cast<std::size_t>(face)] = Rect{0, 0, cells, cells};

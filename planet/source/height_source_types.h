@@ -1,5 +1,5 @@
-// A source of heights behind one sampling function, and the settings for reading its file (height_source.h
-// opens one).
+// A source of heights with one sampling function, and the settings for reading its file. height_source.h
+// opens sources.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace planet {
 
-// A rectangle of a face's finest grid of (faceCells + 1)^2 samples; column i lies at u = 2 i / faceCells - 1,
+// A rectangle of a face's finest grid of (faceCells + 1)^2 samples. Column i lies at u = 2 i / faceCells - 1,
 // row j at v = 2 j / faceCells - 1.
 struct SampleTile {
     Face face = Face::PosX;
@@ -26,53 +26,55 @@ struct SampleTile {
     int rows = 0;
 };
 
-// Copies share the open files. sample may be called by several threads at once.
+// Copies share the open files. Several threads may call sample at once.
 struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
     // The smallest 2^n + 1 that loses no source resolution. Procedural terrain, which may have finer detail,
-    // names one that bakes in some minutes.
+    // gives a size that bakes in some minutes.
     int naturalFaceSize = 0;
-    double stepM = 0;  // an integer source's own step, metres; 0 for a float source
-    // The lowest and highest of the file's samples, fillM included where it was used, metres. All heights
-    // that sample() gives lie in [minM, maxM].
+    double stepM = 0;  // step of an integer source, metres; 0 for floats
+    // The lowest and highest of the file's samples, metres, including fillM if it was used. All heights from
+    // sample() lie in [minM, maxM].
     double minM = 0;
     double maxM = 0;
     std::uint64_t sampleCount = 0;
-    std::uint64_t missingCount = 0;  // samples without data, filled
-    // Colours only: the number of the cube's edges along which six faces differ visibly, and the notice that
-    // says so. 0 and empty if the faces agree.
+    std::uint64_t missingCount = 0;  // filled samples without data
+    // Only for colours: the number of the cube's edges along which six faces differ visibly, and a notice
+    // about it. 0 and empty if the faces agree.
     int seamEdges = 0;
     std::string notice{};
 
-    // Fills out, row-major, columns x rows heights in metres. A sample's value depends only on its point of
-    // the cube and faceCells, never on the tile or the face it is asked through, so shared edges are
-    // bit-identical. Filtered: a source finer than the grid is averaged over the grid's spacing, a coarser
-    // one is interpolated smoothly; faces on a grid of their own size are copied exactly. Where faces differ
-    // by rounding along an edge of the cube, the first in enum order is taken. A call needs about 16 MB
+    // Fills out, row-major, with columns x rows heights in metres. A sample's value depends only on its point
+    // of the cube and on faceCells, never on the tile or face, so shared edges are bit-identical.
+    //
+    // The values are filtered: a source finer than the grid is averaged over the grid's spacing, a coarser
+    // one is interpolated smoothly, and faces on a grid of their own size are copied exactly. If faces differ
+    // by rounding along an edge of the cube, the first in enum order is used. A call needs about 16 MB
     // besides the cache. The Error names the file.
     std::function<Result<void>(const SampleTile& tile, std::span<float> out)> sample;
 };
 
 struct HeightSourceSettings {
-    // height = offsetM + metresPerUnit * value, where the file says nothing else: 1 and 0. metresPerUnit, not
-    // 0, overrides the file's scale, offset and unit; offsetM, metres, overrides its offset alone.
+    // height = offsetM + metresPerUnit * value; 0 and 1 if neither the settings nor the file say otherwise.
+    // metresPerUnit, not 0, overrides the file's scale, offset and unit; offsetM, metres, overrides only its
+    // offset.
     std::optional<double> metresPerUnit;
     std::optional<double> offsetM;
-    // A value that means "missing", instead of the file's own GDAL_NODATA; NaN and infinities always do.
+    // The value that means "missing", instead of the file's GDAL_NODATA; NaN and infinities always do.
     std::optional<double> noDataValue;
-    double fillM = 0;            // height given to missing samples, metres
-    std::optional<int> rawSize;  // raw faces: samples a side, where the name does not say
-    std::optional<int> rawBits;  // raw faces: 8 or 16, where the file's length does not say
+    double fillM = 0;            // height of missing samples, metres
+    std::optional<int> rawSize;  // raw faces: samples per side, if the name does not say
+    std::optional<int> rawBits;  // raw faces: 8 or 16, if the file's length does not say
     bool rawSigned = false;      // raw faces of 16 bits: signed steps
     bool rawBigEndian = false;   // raw faces of 16 bits
-    // [0, 2]: the source gives that channel of a colour image instead of heights, as linear light in [0, 1].
-    // Integers are read as sRGB, floats as linear light. A grey image is the same in all three; alpha is
-    // ignored.
+    // [0, 2]: the source returns this channel of a colour image instead of heights, as linear light in [0,
+    // 1]. Integers are read as sRGB, floats as linear light. A grey image is the same in all three channels;
+    // alpha is ignored.
     std::optional<int> colourChannel;
-    // The most memory spent on heights, bytes; 4 bytes each. A larger source is read in blocks; one whose
-    // file has no blocks, such as a PNG, is copied once to a temporary file.
+    // Memory limit for heights, bytes; each takes 4 bytes. A larger source is read in blocks; if its file has
+    // no blocks, such as a PNG, it is copied once to a temporary file.
     std::size_t cacheBytes = 48u << 20;
-    FileCalls fileCalls = systemFileCalls();  // for raw faces and that temporary file
+    FileCalls fileCalls = systemFileCalls();  // for raw faces and the temporary file
 };
 
 }  // namespace planet

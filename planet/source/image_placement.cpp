@@ -56,8 +56,8 @@ Error regionError(const std::string& file, int width, int height, const ImageExt
                         from, regionHint)};
 }
 
-// Rounds to a half or a whole column if it differs only by rounding, so that tags give the same placement as
-// a size.
+// Rounds to a half or a whole column if the difference is only rounding, so that tags and sizes give the same
+// placement.
 double withoutRounding(double column) {
     const double nearest = std::round(2 * column) / 2;
     return std::abs(column - nearest) < 0.01 ? nearest : column;

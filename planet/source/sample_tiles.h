@@ -20,13 +20,13 @@ inline std::size_t samplesIn(const SampleTile& tile) {
     return static_cast<std::size_t>(tile.columns) * static_cast<std::size_t>(tile.rows);
 }
 
-// Returns the place of a sample, by its column and row on the face, in the tile's samples.
+// Returns the index of a sample in the tile's samples, from its column and row on the face.
 inline std::size_t indexIn(const SampleTile& tile, int column, int row) {
     return static_cast<std::size_t>(row - tile.firstRow) * static_cast<std::size_t>(tile.columns) +
            static_cast<std::size_t>(column - tile.firstColumn);
 }
 
-// Returns the tile of all samples of a chunk's square on the finest grid, edges included.
+// Returns the tile of all samples of a chunk's square on the finest grid, including its edges.
 inline SampleTile tileOf(const PlanetShape& shape, const ChunkId& chunk) {
     const int cells = faceCells(shape) >> chunk.level;
     return {
@@ -44,14 +44,14 @@ inline SampleTile tileBetween(const FaceGridPoint& a, const FaceGridPoint& b, in
             std::abs(a.row - b.row) + 1};
 }
 
-// Returns the direction of a sample of a face's grid, unit.
+// Returns the unit direction of a sample of a face's grid.
 inline glm::dvec3 directionOf(Face face, int faceCells, int column, int row) {
     return sphereFromCube(cubePoint(face, 2.0 * column / faceCells - 1, 2.0 * row / faceCells - 1));
 }
 
-// Splits a tile into square pieces of at most side samples a side, so that each needs little memory. Calls
-// samplePiece(piece, to, stride), which writes the piece's samples from `to` on, its rows stride samples
-// apart. Ends at the first Error.
+// Splits a tile into square pieces of at most `side` samples per side, so that each needs little memory.
+// Calls samplePiece(piece, to, stride), which writes the piece's samples starting at `to`, with rows `stride`
+// samples apart. Stops at the first Error.
 template <class Sample, class SamplePiece>
 Result<void> sampleInPieces(const SampleTile& tile, int side, std::span<Sample> out,
                             const SamplePiece& samplePiece) {

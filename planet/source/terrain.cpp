@@ -1,4 +1,4 @@
-// The table of the settings of all kinds, and their checks.
+// The table of the settings of all kinds of terrain, and their checks.
 #include "planet/source/terrain.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ constexpr TerrainField field(std::string_view name, std::string_view label, std:
         [](TerrainSettings& s, double value) { std::get<Settings>(s).*member = static_cast<Value>(value); }};
 }
 
-// Limits the range of the field's slider.
+// Sets the range of the field's slider.
 constexpr TerrainField usually(double least, double most, TerrainField field) {
     field.usualLeast = least;
     field.usualMost = most;
@@ -235,7 +235,7 @@ Result<void> checkTerrain(const TerrainSettings& settings) {
     const TerrainKind& kind = kindOf(settings);
     for (const TerrainField& setting : kind.fields) {
         const double value = setting.get(settings);
-        // Written so that NaN fails too.
+        // The comparison is written so that NaN fails too.
         if (value >= setting.least && value <= setting.most) continue;
         return badInput(fmt::format("{}: {} is {}; expected [{}, {}]{}{}", kind.name, setting.name, value,
                                     setting.least, setting.most,

@@ -30,7 +30,7 @@ std::vector<Octave> octavesOf(std::uint32_t seed, int count, double firstCellRad
 
 std::size_t heldBy(std::span<const Octave> octaves, double stepRad) {
     std::size_t count = 0;
-    // Lattice cells are often two steps of a grid wide, except for rounding.
+    // Lattice cells are often exactly two steps of a grid wide, except for rounding.
     while (count < octaves.size() && octaves[count].cellRad * (1 + 1e-9) >= 2 * stepRad) ++count;
     return count;
 }

@@ -1,4 +1,4 @@
-// The kinds of procedural terrain behind makeTerrain, and their common parts. Internal to the library.
+// The kinds of procedural terrain behind makeTerrain, and their shared parts. Internal to the library.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,8 @@
 
 namespace planet {
 
-// The natural face size of procedural terrain bakes in some minutes, although finer detail exists.
+// Limits of the natural face size of procedural terrain, which then bakes in some minutes although it may
+// have finer detail.
 inline constexpr int mostNaturalCells = 2048;
 inline constexpr int leastNaturalCells = 128;
 
@@ -40,10 +41,10 @@ constexpr double radFromDeg(double deg) {
 constexpr double gridStepRad(int faceCells) {
     return std::numbers::pi / 2 / faceCells;
 }
-// Returns the cells of the grid whose step is at most stepRad, within the limits above.
+// Returns the cells of the grid whose step is at most stepRad, within these limits.
 int naturalCells(double stepRad);
 
-// An octave of noise, shifted so that the zeros of the octaves' lattices do not meet.
+// An octave of noise, shifted so that the zeros of the octaves' lattices do not coincide.
 struct Octave {
     double frequency = 0;  // lattice cells along the sphere's radius
     double cellRad = 0;    // a lattice cell
@@ -53,7 +54,7 @@ struct Octave {
 };
 std::vector<Octave> octavesOf(std::uint32_t seed, int count, double firstCellRad, double lacunarity,
                               double gain);
-// Returns how many octaves a grid can hold: those with a lattice cell of at least two steps.
+// Returns the number of octaves that a grid can represent: those with a lattice cell of at least two steps.
 std::size_t heldBy(std::span<const Octave> octaves, double stepRad);
 
 // Returns the octave's noise in a direction.
@@ -61,21 +62,21 @@ inline double noiseOf(const Octave& octave, const glm::dvec3& direction) {
     return gradientNoise(direction * octave.frequency + octave.shift, octave.seed);
 }
 
-// Return the sum of the octaves that the grid holds, and the root mean square of all octaves. Heights are
-// scaled so that their amplitude is noiseReach times that: noise has thinner tails than a normal
-// distribution, of which less than one in a million lies beyond.
+// Return the sum of the octaves that the grid can represent, and the root mean square of all octaves. Heights
+// are scaled so that their amplitude is noiseReach times that. Noise has thinner tails than a normal
+// distribution, which exceeds this in less than one of a million places.
 double fractalNoise(std::span<const Octave> octaves, const glm::dvec3& direction, double stepRad);
 double fractalRms(std::span<const Octave> octaves);
 inline constexpr double noiseReach = 5;
 
-// The numbers of a source of terrain; naturalCells: along a face.
+// The ranges of a terrain source; naturalCells: along a face.
 struct TerrainExtent {
     int naturalCells = 0;
     double minM = 0;
     double maxM = 0;
 };
 
-// Describes a source of terrain without files; it lacks its sample function.
+// Describes a terrain source without files. Its sample function is still missing.
 inline HeightSource describedTerrain(const TerrainSettings& settings, const TerrainExtent& extent) {
     HeightSource source;
     source.description = terrainText({settings, {}});
@@ -85,7 +86,7 @@ inline HeightSource describedTerrain(const TerrainSettings& settings, const Terr
     return source;
 }
 
-// Returns the source of height(direction, stepRad), metres, clamped to the extent.
+// Returns the source with the heights height(direction, stepRad), metres, clamped to the extent.
 template <class Height>
 HeightSource fieldSource(const TerrainSettings& settings, const TerrainExtent& extent, Height height) {
     HeightSource source = describedTerrain(settings, extent);
@@ -104,8 +105,8 @@ HeightSource fieldSource(const TerrainSettings& settings, const TerrainExtent& e
     return source;
 }
 
-// Returns the source that samples pieces of at most side samples a side by samplePiece(terrain, piece, to,
-// stride), as sampleInPieces does.
+// Returns the source that samples pieces of at most `side` samples per side by samplePiece(terrain, piece,
+// to, stride), as sampleInPieces does.
 template <class Terrain>
 using SamplePiece = Result<void> (*)(const Terrain& terrain, const SampleTile& piece, float* to,
                                      std::size_t stride);

@@ -1,4 +1,4 @@
-// Converts terrain to and from text, so that one string names it like a path names a file.
+// Converts terrain to and from text, so that a string names it as a path names a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr std::string_view noisePrefix = "noise:";
 constexpr std::string_view detailPrefix = "detail:";
 constexpr std::string_view ofKey = "of";
 
-// Returns Levenshtein's distance.
+// Returns the Levenshtein distance.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -40,7 +40,7 @@ std::string_view nearestTo(std::string_view name, std::span<const std::string_vi
     });
 }
 
-// Cuts the part before the separator off the text; the whole text if there is no separator.
+// Removes and returns the part of the text before the separator; the whole text if there is none.
 std::string_view cutAt(char separator, std::string_view& text) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view first = text.substr(0, end);
