@@ -71,7 +71,7 @@ private:
     double epsPx(const ChunkNode& node) const {
         return epsPxOf(node, facts_.lodView.eyeM, scalePx_, facts_.lod.metric);
     }
-    // The computation is that of selection, so that both agree bit for bit.
+    // Returns d_m, computed as in selection, so that both agree bit for bit.
     double switchDistanceM(const ChunkNode& node) const {
         return deltaOf(node, facts_.lod.metric) * (scalePx_ / facts_.lod.tauPx);
     }

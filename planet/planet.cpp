@@ -232,7 +232,8 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
     }
 }
 
-// A block that waits for room can still arrive if another block is about to be dropped.
+// Returns whether nothing is pending. A block that waits for room can still arrive if another block is about
+// to be dropped.
 bool PlanetState::isSettled() const {
     const auto all = kinds();
     const bool roomIsComing =

@@ -37,8 +37,8 @@ class PlanetTools;      // planet_tools.h
 
 class Planet {
 public:
-    // The Error names the file and its problem, or a setting and its range. For a budget that is too small,
-    // it gives the smallest one.
+    // Opens a chunk file. The Error names the file and its problem, or a setting and its range. For a budget
+    // that is too small, it gives the smallest one.
     static Result<std::unique_ptr<Planet>> open(const std::filesystem::path& path,
                                                 const PagingSettings& settings,
                                                 const FileCalls& calls = systemFileCalls());
@@ -100,7 +100,8 @@ public:
     // Returns the tree of colours or normals; it has no nodes if they are off.
     const TileTree& tiles(BlockKind kind) const;
 
-    // The views of the last step with their selections, whose nodes and slots are valid until the next step.
+    // Return the views of the last step with their selections. Nodes and slots in them are valid until the
+    // next step.
     std::span<const PlanetView> views() const;
     const Selection& selection(std::size_t view = 0) const;
     const PagingCounters& paging() const;

@@ -65,8 +65,8 @@ public:
     // Returns the moves since the last call. Call it after each step and each other call while moves are
     // kept; a call that abandons reads clears them first.
     PagingMoves takeMoves();
-    // In recorded time: repeats the result of takeMoves(), before the call or step that it was recorded
-    // after. Returns false if a move has no request, because the earlier calls differed; such moves are
+    // Replays moves from takeMoves(), in recorded time. Call it before the call or step for which they were
+    // recorded. Returns false if a move has no request, because the earlier calls differed; such moves are
     // skipped.
     bool follow(const PagingMoves& moves);
 

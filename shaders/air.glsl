@@ -106,7 +106,8 @@ struct AirSpan {
     bool meetsGround;
 };
 
-// distance: to the ray's end; negative: to the top of the atmosphere, or to the ground at height 0.
+// Returns the span of a ray from the eye. distance: to the ray's end; negative: to the top of the atmosphere,
+// or to the ground at height 0.
 AirSpan airSpan(float rise, float distance) {
     AirSpan span = AirSpan(0.0, air.eyeKm, 0.0, 0.0, false);
     float radius = air.radiusKm + span.height;

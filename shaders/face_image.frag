@@ -12,7 +12,7 @@ out vec4 fragment;
 
 const float pi = 3.14159265;
 
-// Nowell's mapping.
+// Returns a point of the unit sphere by Nowell's mapping.
 vec3 sphereFromCube(vec3 cube) {
     vec3 s = cube * cube;
     return cube * sqrt(1.0 - 0.5 * (s.yzx + s.zxy) + s.yzx * s.zxy / 3.0);

@@ -21,7 +21,7 @@ struct ColourEstimate {
     std::uint64_t residentBytes = 0;  // memory on the GPU if all tiles were resident
 };
 
-// cacheBytes: as for openColourSource. Calls goOn between tiles; returning false cancels.
+// Estimates the cost. cacheBytes: as for openColourSource. Calls goOn between tiles; returning false cancels.
 Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourBakeSettings& settings,
                                        int threads, std::size_t cacheBytes = defaultColourCacheBytes,
                                        const std::function<bool()>& goOn = {});

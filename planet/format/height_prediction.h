@@ -48,7 +48,7 @@ class RefinementPredictor {
 public:
     explicit RefinementPredictor(int coarseCells);  // c in [1, 128]
 
-    // coarse: (c + 1)^2, row-major.
+    // Sets the coarse grid: (c + 1)^2, row-major.
     void setCoarse(std::span<const std::int16_t> coarse);
 
     // Starts or restarts a pass with a predictor in [0, refinementPredictorCount). The previous passes must

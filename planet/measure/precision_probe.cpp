@@ -23,7 +23,8 @@ struct ShaderVertices {
         const auto index = static_cast<std::size_t>(vertex.y * chunkSize(shape) + vertex.x);
         return vertexFromEyeM(frame, id.face, gridU, gridV, heights[index]);
     }
-    // The sum starts from one part, because the rounded shares do not add up to exactly 1.
+    // Mixes the vertices of a blend. The sum starts from one part, because the rounded shares do not add up
+    // to exactly 1.
     glm::vec3 blended(const VertexBlend& blend) const {
         const glm::vec3 last = own(blend.parts[blend.count - 1].vertex);
         glm::vec3 sum = last;

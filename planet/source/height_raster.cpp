@@ -33,7 +33,7 @@ bool isNoData(T value, double noDataValue) {
     }
 }
 
-// The sRGB transfer function (IEC 61966-2-1).
+// Decodes sRGB (IEC 61966-2-1).
 double linearFromSrgb(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }

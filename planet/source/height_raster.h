@@ -96,7 +96,7 @@ public:
     HeightRaster() = default;
     static HeightRaster whole(int width, int height, std::vector<float> heightsM,
                               const HeightStatistics& statistics);
-    // statistics: if already known, to avoid the scan.
+    // Makes a raster that is read in blocks. statistics: if already known, to avoid the scan.
     static HeightRaster inBlocks(int width, int height, const HeightConversion& conversion, Blocks blocks,
                                  const std::optional<HeightStatistics>& statistics = {});
 
@@ -138,8 +138,9 @@ struct ImageLayout {
 // A channel of an image, open for reading by several threads; each borrows a reader of its own.
 class ImageFile {
 public:
-    // colourChannel: as in HeightSourceSettings; without it the image must have one grey channel. The Error
-    // says that the file is missing or unreadable, or has other channels or an unsupported sample type.
+    // Opens an image. colourChannel: as in HeightSourceSettings; without it the image must have one grey
+    // channel. The Error says that the file is missing or unreadable, or has other channels or an unsupported
+    // sample type.
     static Result<std::shared_ptr<ImageFile>> open(const std::filesystem::path& path,
                                                    std::optional<int> colourChannel);
     ~ImageFile();

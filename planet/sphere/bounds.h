@@ -62,8 +62,9 @@ struct Horizon {
 };
 Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM);
 
-// Outside: the occluder hides every point in the cone up to maxRadiusM. Inside: it hides no point of the cone
-// that is outside it, so it hides nothing of this chunk and its descendants. Crossing: neither is certain.
+// Classifies a chunk against the horizon. Outside: the occluder hides every point in the cone up to
+// maxRadiusM. Inside: it hides no point of the cone that is outside it, so it hides nothing of this chunk and
+// its descendants. Crossing: neither is certain.
 Containment classify(const ChunkBounds& bounds, const Horizon& horizon);
 
 // Returns the radius of a sphere around the planet's centre that is inside every triangle between vertices of

@@ -63,7 +63,7 @@ ChunkId chunkAt(const FacePoint& point, int level);
 ChunkId chunkInQuadtreeOrder(std::uint64_t index, int level);
 std::uint64_t indexInQuadtreeOrder(const ChunkId& id);
 
-// "z_pos/3/5/2": face, level, x, y.
+// Convert an id to and from text: "z_pos/3/5/2" is face, level, x, y.
 std::string toString(const ChunkId& id);
 std::optional<ChunkId> chunkIdFromString(std::string_view text);
 

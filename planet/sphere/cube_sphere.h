@@ -21,7 +21,7 @@ inline constexpr int faceCount = 6;
 inline constexpr std::array<Face, faceCount> allFaces = {Face::PosX, Face::NegX, Face::PosY,
                                                          Face::NegY, Face::PosZ, Face::NegZ};
 
-// Converts a face to and from its name: "x_pos", "x_neg", ... as in file names.
+// Convert a face to and from its name: "x_pos", "x_neg", ... as in file names.
 std::string_view faceName(Face face);
 std::optional<Face> faceFromName(std::string_view name);
 
@@ -37,8 +37,8 @@ const FaceAxes& faceAxes(Face face);
 // +-v, so points on an edge or a corner are bit-identical for all faces.
 glm::dvec3 cubePoint(Face face, double u, double v);
 
-// Nowell's mapping from the cube [-1, 1]^3 to the unit sphere. It is symmetric in the axes, so the same cube
-// point gives the same bits on every face.
+// Returns a point of the unit sphere by Nowell's mapping from the cube [-1, 1]^3. The mapping is symmetric in
+// the axes, so the same cube point gives the same bits on every face.
 glm::dvec3 sphereFromCube(const glm::dvec3& cube);
 
 // Returns the cube point of a direction of any length but 0: the inverse of sphereFromCube, accurate to

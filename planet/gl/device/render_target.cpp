@@ -15,7 +15,7 @@ GLint limitOf(GLenum name) {
     return value;
 }
 
-// OpenGL reads rows from the bottom.
+// Reverses the order of rows, because OpenGL reads them from the bottom.
 template <class T>
 void flipRows(std::vector<T>& pixels, std::size_t rowLength) {
     const std::size_t rows = pixels.size() / rowLength;

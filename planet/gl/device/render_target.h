@@ -13,7 +13,8 @@ namespace planet::gl {
 
 class RenderTarget {
 public:
-    // samples: [1, RenderCapabilities::samples]. The Error names what the context cannot do.
+    // Creates a target. samples: [1, RenderCapabilities::samples]. The Error names what the context cannot
+    // do.
     static Result<RenderTarget> create(int widthPx, int heightPx, int samples = 1);
 
     void bind() const;

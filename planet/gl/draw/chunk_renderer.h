@@ -43,7 +43,8 @@ struct RendererConfig {
 
 class ChunkRenderer {
 public:
-    // The Error says what the context lacks, or quotes the shader compiler.
+    // Creates a renderer in the current context. The Error says what the context lacks, or quotes the shader
+    // compiler.
     static Result<ChunkRenderer> create(const RendererConfig& config);
     ChunkRenderer(ChunkRenderer&&) noexcept;
     ChunkRenderer& operator=(ChunkRenderer&&) noexcept;

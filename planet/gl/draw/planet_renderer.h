@@ -43,7 +43,8 @@ struct PlanetDrawing {
 
 class PlanetRenderer {
 public:
-    // The Error says what the context lacks, or quotes the shader compiler.
+    // Creates a renderer in the current context. The Error says what the context lacks, or quotes the shader
+    // compiler.
     static Result<PlanetRenderer> create(const Planet& planet, const PlanetRendererConfig& config = {});
     PlanetRenderer(PlanetRenderer&&) noexcept = default;
     PlanetRenderer& operator=(PlanetRenderer&&) noexcept = default;

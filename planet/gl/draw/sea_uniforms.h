@@ -34,7 +34,7 @@ double seaSlopeVariance(double windMps);
 // Red is absorbed first and blue last, as in the clear ocean (Jerlov's type I).
 glm::dvec3 waterExtinction(double clarityM);
 
-// exaggeration: of the drawn heights, > 0.
+// Returns the uniform block. exaggeration: of the drawn heights, > 0.
 SeaUniforms seaUniforms(const SeaDrawing& sea, const View& view, double exaggeration);
 
 }  // namespace planet::gl

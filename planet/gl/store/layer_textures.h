@@ -19,7 +19,8 @@ LayerPicture checkerPicture(int size);
 
 class LayerTextures {
 public:
-    // size: a power of two, [8, 4096]. The Error says what the context is out of memory for.
+    // Creates the textures. size: a power of two, [8, 4096]. The Error says what the context is out of memory
+    // for.
     static Result<LayerTextures> create(std::span<const LayerPicture> pictures, int size);
 
     GLuint albedo() const { return albedo_.name(); }

@@ -32,7 +32,7 @@ std::uint32_t mostColourTiles();
 
 class TilePool {
 public:
-    // The Error says what the context cannot hold.
+    // Create an empty pool. The Error says what the context cannot hold.
     static Result<TilePool> create(const ColourPoolConfig& config);
     static Result<TilePool> create(const NormalPoolConfig& config);
 
