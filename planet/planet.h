@@ -37,8 +37,8 @@ class PlanetTools;      // planet_tools.h
 
 class Planet {
 public:
-    // Opens a chunk file. The Error names the file and its problem, or a setting and its range. For a budget
-    // that is too small, it gives the smallest one.
+    // Open a planet from a chunk file or another source. The Error names the file and its problem, or a
+    // setting and its range. For a budget that is too small, it gives the smallest one.
     static Result<std::unique_ptr<Planet>> open(const std::filesystem::path& path,
                                                 const PagingSettings& settings,
                                                 const FileCalls& calls = systemFileCalls());

@@ -114,7 +114,7 @@ struct DetailTerrain {
     double ridged = 0.5;    // 0: round, 1: ridged; [0, 1]
     double limitM = 1000;   // largest height change, metres; [0, 1e5]
     double flatM = 15;      // relief below this counts as flat, metres; [0, 1e5]
-    double seaM = 0;        // sea level, metres; below it there is no detail
+    double seaM = 0;        // sea level, metres; detail fades out towards the sea
     double coastM = 120;  // the fade begins this far above seaM and ends this far below it, metres; [0, 1e5]
 };
 
