@@ -42,7 +42,7 @@ void printTable(const ComparisonPlan& plan, std::span<const SettingDifference> d
         const auto [a, b] = shortNumberTexts(one.here, one.there);
         fmt::print("{}: A {}, B {}\n", one.setting, a, b);
     }
-    fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "", "A", "B", "B to A");
+    fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "", "A", "B", "B / A");
     for (const CompareRow& row : compareRows()) {
         if (!row.flight) continue;
         const std::optional<double>& a = pair[0].*row.value;
@@ -123,7 +123,7 @@ Result<void> runCompare(const CompareOptions& options) {
         if (!taken) return tl::unexpected(taken.error());
         pictures = std::move(*taken);
         if (!options.report.json) {
-            fmt::print("\n{} pixels differ at {:.2f} s, where most do, the largest by {} of 255 steps\n",
+            fmt::print("\nmost differing frame: {} pixels at {:.2f} s, max difference {} of 255\n",
                        pictures->pixels, pictures->timeS, pictures->largestSteps);
         }
         if (const Result<void> written = writePictures(options.pictures, *pictures); !written) return written;

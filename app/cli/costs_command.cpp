@@ -29,9 +29,10 @@ nlohmann::ordered_json reportOf(const std::vector<PartCost>& costs, const Settle
 }
 
 void print(const std::vector<PartCost>& costs) {
-    fmt::print("{:<20} {:>11} {:>9} {:>9} {:>7}\n", "part", "without, ms", "with, ms", "more, ms", "ratio");
+    fmt::print("{:<20} {:>11} {:>9} {:>14} {:>7}\n", "part", "without, ms", "with, ms", "difference, ms",
+               "ratio");
     for (const PartCost& cost : costs)
-        fmt::print("{:<20} {:>11.2f} {:>9.2f} {:>9.2f} {:>7.2f}\n", cost.part, cost.withoutMs, cost.withMs,
+        fmt::print("{:<20} {:>11.2f} {:>9.2f} {:>14.2f} {:>7.2f}\n", cost.part, cost.withoutMs, cost.withMs,
                    cost.withMs - cost.withoutMs, cost.withMs / cost.withoutMs);
 }
 

@@ -94,7 +94,7 @@ void printSummary(const FlightPath& path, const PopsOptions& options, double ste
         totals.switches, flown.usPerSwitch, totals.counted, totals.afterJump, totals.underSea,
         totals.outsidePicture);
     fmt::print("sea surface drawn: {}\n",
-               flown.seaSurfaceDrawn ? "yes, as a GPU does with these settings; it hides the bed" : "no");
+               flown.seaSurfaceDrawn ? "yes (as with a GPU); it hides the sea bed" : "no");
     for (std::size_t i = 0; i < planet::popCauseCount; ++i) {
         if (flown.totals.byCause[i] == 0) continue;
         fmt::print("  {:18}{:8}\n", planet::popCauseName(static_cast<planet::PopCause>(i)),
@@ -102,7 +102,7 @@ void printSummary(const FlightPath& path, const PopsOptions& options, double ste
     }
     if (!jumps.empty()) {
         fmt::print(
-            "jump of those counted: P99 {:.4f} px, median {:.4f}, P90 {:.4f}, max {:.4f} px; "
+            "jump of counted level changes: P99 {:.4f} px, median {:.4f}, P90 {:.4f}, max {:.4f} px; "
             "max jump of adjacent edges {:.4f} px\n",
             percentileOf(jumps, 0.99), percentileOf(jumps, 0.5), percentileOf(jumps, 0.9),
             percentileOf(jumps, 1), flown.totals.worstBesidePx);

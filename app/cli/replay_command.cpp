@@ -45,15 +45,15 @@ void printReport(const FlightReplay& replay) {
                replay.timeS(), nameOf(replay.paging()));
     const std::optional<ReplayDifference>& first = replay.firstDifference();
     if (!first) {
-        fmt::print("exact: every frame is as it was recorded\n");
+        fmt::print("exact: every frame matches the recording\n");
         return;
     }
-    fmt::print("{} frames differ; the first is frame {} at {:.3f} s, in its {}\n", replay.framesDifferent(),
+    fmt::print("{} frames differ; first: frame {} at {:.3f} s, in the {}\n", replay.framesDifferent(),
                first->frame + 1, first->timeS, first->what);
     printIds("only replayed", first->onlyReplayed);
     printIds("only recorded", first->onlyRecorded);
     if (first->onlyReplayed.empty() && first->onlyRecorded.empty())
-        fmt::print("  the same chunks, in another order or with other morphs or outcomes\n");
+        fmt::print("  same chunks; order, morphs or outcomes differ\n");
 }
 
 Json jsonOf(const ReplayOptions& options, const std::string& file, const FlightReplay& replay) {
@@ -81,7 +81,7 @@ Result<planet::ChunkFile> openData(const ReplayOptions& options, const FlightDat
         options.file.empty() ? std::filesystem::path(recorded.chunkFile) : options.file);
     if (!file && options.file.empty())
         return planet::badInput(
-            fmt::format("{}; name the chunk file after the flight", file.error().message));
+            fmt::format("{}; expected the chunk file as the second argument", file.error().message));
     if (!file) return file;
     if (const Result<void> same = checkSameData(options.flight, recorded, flightDataOf(*file)); !same)
         return tl::unexpected(same.error());

@@ -70,7 +70,7 @@ Result<ui::Bookmark> readBookmark(const fs::path& file, const toml::table& table
             return tl::unexpected(read.error());
     }
     if (bookmark.name.empty() || bookmark.name.size() > longestName) {
-        return planet::badInput(fmt::format("{}: name is {}; expected 1 to {} letters", placeOf(file, table),
+        return planet::badInput(fmt::format("{}: name is {}; expected 1 to {} bytes", placeOf(file, table),
                                             bookmark.name.empty() ? "missing" : "too long", longestName));
     }
     for (const PoseField& field : poseFields) {
@@ -168,7 +168,8 @@ Bookmarks loadBookmarks(const fs::path& file) {
 Result<void> addBookmark(Bookmarks& bookmarks, std::string_view name, const Pose& pose) {
     const std::string_view kept = trimmed(name);
     if (kept.empty() || kept.size() > longestName) {
-        return planet::badInput(fmt::format("a bookmark's name has 1 to {} letters", longestName));
+        return planet::badInput(
+            fmt::format("bookmark name: {} bytes; expected 1 to {}", kept.size(), longestName));
     }
     Bookmarks changed = bookmarks;
     const auto found = findByName(changed.list, kept);

@@ -241,7 +241,7 @@ ViewSettings swapCompared(CompareController& controller, Session& session, const
     ViewSettings settingsOfA = std::exchange(controller.other->settings, settings);
     if (shownPlanet(session)->data.chunkFile != controller.other->planet.data.chunkFile)
         exchangeShown(session, controller.other->planet, log);
-    controller.other->origin = "what was A";
+    controller.other->origin = "previous A";
     beginMeters(controller, *shownScene(session));
     return withSharedOf(std::move(settingsOfA), settings);
 }

@@ -51,7 +51,7 @@ std::vector<PartSettings> partsOf(const ViewSettings& settings, const PartsThere
     add("detail", [](SurfaceSettings& surface) { surface.detail = true; });
     add("layers", [](SurfaceSettings& surface) { surface.layers.use = FeatureUse::On; });
     if (there.colours) add("streamed colours", [](SurfaceSettings& surface) { surface.streamed = true; });
-    parts.push_back({"all of them", all});
+    parts.push_back({"all features", all});
     return parts;
 }
 

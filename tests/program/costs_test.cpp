@@ -31,7 +31,7 @@ TEST(Costs, TimeEachPartOfThePictureThatThereIs) {
     }
     // The planet has no colours, and faces too small for tiles of normals.
     EXPECT_EQ(parts, (std::set<std::string>{"analytic atmosphere", "physical atmosphere", "sea surface",
-                                            "shadows", "detail", "layers", "all of them"}));
+                                            "shadows", "detail", "layers", "all features"}));
 }
 
 TEST(Costs, OfNoFileOrNoRoundsAreRefused) {

@@ -72,7 +72,7 @@ tab Paging; slide paging/Latency 0.3; record; expect shown "flight/flight 2"
                       two = "replay 'config/worldy/flights/flight 2.flight'";
     Ran ran = runWorldy(folder, one + " -o report.json");
     EXPECT_EQ(ran.exitCode, 0) << ran.output << ran.errors;
-    EXPECT_THAT(ran.output, HasSubstr("exact: every frame is as it was recorded"));
+    EXPECT_THAT(ran.output, HasSubstr("exact: every frame matches the recording"));
     EXPECT_THAT(contentOf(folder.path() / "report.json"), HasSubstr("\"exact\": true"));
     for (const char* how : {" --simulated", " --as-recorded", " planet.chk --simulated"}) {
         ran = runWorldy(folder, two + how);
@@ -81,7 +81,7 @@ tab Paging; slide paging/Latency 0.3; record; expect shown "flight/flight 2"
     changeOneFrame("config/worldy/flights/flight 2.flight", "changed.flight");
     ran = runWorldy(folder, "replay changed.flight");
     EXPECT_EQ(ran.exitCode, 1) << ran.output << ran.errors;
-    EXPECT_THAT(ran.output, HasSubstr("1 frames differ; the first is frame 21 at"));
+    EXPECT_THAT(ran.output, HasSubstr("1 frames differ; first: frame 21 at"));
     ran = runWorldy(folder, two + " --set lod.tau_px=20");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_THAT(ran.output, HasSubstr("frames differ"));

@@ -20,7 +20,7 @@ TEST(Recordings, replayExactlyOverAFreshBake) {
         const Ran replayed = runWorldy(
             folder, "replay '" WORLDY_SOURCE_DIR "/tests/program/recordings/" + name + ".flight' earth.chk");
         EXPECT_EQ(replayed.exitCode, 0) << replayed.errors;
-        EXPECT_THAT(replayed.output, testing::HasSubstr("exact: every frame is as it was recorded"));
+        EXPECT_THAT(replayed.output, testing::HasSubstr("exact: every frame matches the recording"));
     }
 }
 

@@ -129,7 +129,7 @@ void addBookmarkControl(CameraPanelState& state, Commands& commands) {
         ImGui::InputTextWithHint("##name", "Bookmark name", state.bookmarkName.data(),
                                  state.bookmarkName.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     noteItem("Name");
-    tooltip("Up to 60 characters. A bookmark of your own with the same name is replaced.");
+    tooltip("Up to 60 bytes. A bookmark of your own with the same name is replaced.");
     ImGui::SameLine();
     beginGrey(state.bookmarkName[0] == 0, "Type a name first.");
     const bool pressed = button("Add", "Saves the current camera under this name.");

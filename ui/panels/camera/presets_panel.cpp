@@ -143,7 +143,8 @@ void differencesTable(const PresetView& preset) {
     }
     const std::string widestNow = widestText(values[0]);
     const std::string widestThen = widestText(values[1]);
-    const std::array columns = {TableColumn{"Setting", 2}, TableColumn{"Now", 1, nullptr, widestNow.c_str()},
+    const std::array columns = {TableColumn{"Setting", 2},
+                                TableColumn{"Current", 1, nullptr, widestNow.c_str()},
                                 TableColumn{"Preset", 1, nullptr, widestThen.c_str()}};
     if (!beginListTable("differences", columns, rows.size())) return;
     const auto key = [&](std::size_t row, std::size_t column) { return textSortKey(rows[row][column]); };

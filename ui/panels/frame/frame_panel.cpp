@@ -147,7 +147,7 @@ void memoryByKind(const EditorView& view) {
     tooltip(
         "Heights in use: pool slots with a resident chunk. Heights free: empty pool slots reserved by the "
         "budget. Meshes: grid and instance buffers. Textures: the colour image and similar. Colour tiles and "
-        "clipmap: storage of streamed colours. Pictures: render targets.");
+        "clipmap: storage of streamed colours. Render targets: textures the program draws into.");
 }
 
 // Draws the button that measures features. Features within one draw call cannot be timed separately, so the
