@@ -35,7 +35,8 @@ public:
         std::error_code problem;
         std::string name = (std::filesystem::temp_directory_path(problem) / "worldy-bench-XXXXXX").string();
         if (problem || mkdtemp(name.data()) == nullptr)
-            return planet::ioError(fmt::format("{}: no folder can be made there for the bakes", name));
+            return planet::ioError(
+                fmt::format("{}: cannot create this folder; expected a writable temporary folder", name));
         return ScratchFolder(name);
     }
     ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
@@ -180,7 +181,7 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
     return {
         {"lod", "LOD against drawing every leaf, the same camera",
          [&] { return benchLod(planets, options); }},
-        {"dynamic", "The whole planet pass against a static draw of the very same triangles",
+        {"dynamic", "Selection and draw against one static draw of the same triangles",
          [&, largest] { return benchDynamicAgainstStatic(largest(), options); }},
         {"selection", "Selection", [&, largest] { return benchSelection(largest(), options); }},
         {"page_in", "Load against a plain loop", [&, largest] { return benchPageIn(largest(), options); }},

@@ -252,10 +252,10 @@ BenchRows benchFileSize(const BenchPlanet& planet, const std::filesystem::path& 
         rows.push_back(std::move(row));
     };
     add("chunk file, all levels", file->sizeBytes());
-    add("finest alone: zstd -3", sizes.zstd);
-    add("finest alone: deltas, bytes apart, zstd -3", sizes.deltaZstd);
-    add("finest alone: 16-bit PNG", sizes.png);
-    if (sizes.jpeg2000 > 0) add("finest alone: reversible JPEG 2000", sizes.jpeg2000);
+    add("finest level: zstd -3", sizes.zstd);
+    add("finest level: byte-shuffled deltas, zstd -3", sizes.deltaZstd);
+    add("finest level: 16-bit PNG", sizes.png);
+    if (sizes.jpeg2000 > 0) add("finest level: reversible JPEG 2000", sizes.jpeg2000);
     return rows;
 }
 

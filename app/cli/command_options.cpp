@@ -177,9 +177,10 @@ void addCamera(CLI::App& command, const CommandSpec& spec, SharedTexts& texts) {
     const bool many = (spec.takes & takes::cameras) != 0;
     CLI::Option& option = *command.add_option(
         "--camera", texts.cameras,
-        fmt::format("{} ({})", help,
-                    many ? "may be repeated; the whole planet, and low over its most rugged ground"
-                         : "the whole planet"));
+        fmt::format(
+            "{} ({})", help,
+            many ? "may be repeated; default: views of the whole planet and low above its most rugged ground"
+                 : "the whole planet"));
     option.expected(1)->allow_extra_args(false);
     if (many) option.take_all();
 }

@@ -93,7 +93,7 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
                planet::heightM(shape, info.maxStep), shape.quantumM);
     fmt::print("  faces            {0} x {0} samples\n", planet::faceCells(shape) + 1);
     fmt::print("  chunks           {0} x {0} vertices\n", planet::chunkSize(shape));
-    fmt::print("  finest samples   {}, {} of the source without data\n", report.finestSamples,
+    fmt::print("  finest samples   {}; source samples without data: {}\n", report.finestSamples,
                info.missingSamples);
     fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",
                bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
@@ -184,7 +184,7 @@ Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& rep
 }
 
 void printProbe(const FileCommandOptions& options, const planet::ProbeReport& report) {
-    fmt::print("{}: {} lies at {:.3f} m, on {} at u {:.6f}, v {:.6f}\n\n", options.file.string(),
+    fmt::print("{}: {}: height {:.3f} m, face {}, u {:.6f}, v {:.6f}\n\n", options.file.string(),
                placeText(options.latitudeDeg, options.longitudeDeg), report.heightM,
                planet::faceName(report.place.face), report.place.u, report.place.v);
     fmt::print("{:24}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "chunk", "delta_c, m", "tight, m", "height, m",
@@ -241,7 +241,7 @@ Result<bool> runVerify(const FileCommandOptions& options) {
     const bool onlySource = problems == report->sourceProblems + colours->sourceProblems;
     printMessage("worldy: {}: {} found, 0 expected; {}\n", options.file.string(), problemsText(problems),
                  onlySource
-                     ? "the file is whole but differs from the given source: bake it again, or name the "
+                     ? "the file is consistent but differs from the given source: bake it again, or name the "
                        "source and the options that it was baked with"
                      : "bake the file again");
     return false;

@@ -73,7 +73,8 @@ Result<void> takeShot(const ShotOptions& options) {
         printMessage("worldy: the camera was below the ground; lifted to {:.1f} m, {} m above it\n",
                      view.pose.altitudeM, minGroundClearanceM);
     }
-    if (!view.settled) printMessage("worldy: not everything was loaded in time; the picture may be coarse\n");
+    if (!view.settled)
+        printMessage("worldy: loading timed out; the picture may be coarser than the settings require\n");
     const Result<void> drawn = drawAndFinish(*offscreen, view.view, options.view);
     for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
     if (!drawn) return drawn;

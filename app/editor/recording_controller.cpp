@@ -97,7 +97,7 @@ std::string textOf(const char* sign, const std::vector<planet::BlockId>& ids) {
 }
 
 std::string textOf(const ReplayDifference& difference) {
-    return fmt::format("frame {} at {:.2f} s, its {}:{}{}", difference.frame + 1, difference.timeS,
+    return fmt::format("frame {} at {:.2f} s, in the {}:{}{}", difference.frame + 1, difference.timeS,
                        difference.what, textOf("+", difference.onlyReplayed),
                        textOf("-", difference.onlyRecorded));
 }

@@ -76,8 +76,7 @@ Result<ScreenshotNote> readScreenshotNote(const fs::path& file) {
     }
     if (note.settings.empty() || camera.empty()) {
         return planet::badInput(
-            fmt::format("{}: holds no settings; expected a screenshot taken by Worldy, as it was written",
-                        file.string()));
+            fmt::format("{}: contains no settings; expected an unmodified Worldy screenshot", file.string()));
     }
     const Result<planet::CameraPose> pose = poseFromText(camera);
     if (!pose) {
@@ -99,12 +98,12 @@ Result<fs::path> newScreenshotFile(const fs::path& folder, const std::tm& localT
             return file;
         }
         if (errno != EEXIST) {
-            return planet::ioError(fmt::format("{}: no picture can be written there: {}", folder.string(),
-                                               std::strerror(errno)));
+            return planet::ioError(fmt::format("{}: cannot be written: {}; expected a writable folder",
+                                               folder.string(), std::strerror(errno)));
         }
     }
-    return planet::ioError(
-        fmt::format("{}: has {} pictures of this second already", folder.string(), mostOfASecond));
+    return planet::ioError(fmt::format("{}: already contains {} screenshots of this second; expected fewer",
+                                       folder.string(), mostOfASecond));
 }
 
 bool isPng(const fs::path& file) {

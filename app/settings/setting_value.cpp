@@ -71,7 +71,7 @@ struct ReadField {
             return wrong(
                 node,
                 fmt::format(
-                    "{} is {}; expected an array of stops, as [{{ height_m = 0, colour = \"#40a060\" }}]",
+                    "{} is {}; expected an array of stops such as [{{ height_m = 0, colour = \"#40a060\" }}]",
                     name, shownValue(node)));
         }
         if (array->size() > maxRampStops) {
@@ -264,7 +264,7 @@ std::string summaryOf(const Field& field) {
     const Text* text = std::get_if<Text>(&defaults.value);
     // A layer stack is too long for a line.
     const bool layers = std::holds_alternative<LayerStack>(field.value);
-    const std::string value = layers                         ? "those of the Earth"
+    const std::string value = layers                         ? "the built-in layers"
                               : text && text->value->empty() ? "empty"
                                                              : plainText(defaults);
     const bool list = std::holds_alternative<Choice>(field.value);

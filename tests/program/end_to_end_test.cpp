@@ -85,7 +85,7 @@ TEST(Program, VerifyAgainstAnotherSourceDoesNotBlameTheFileAlone) {
     EXPECT_EQ(other.exitCode, 1);
     EXPECT_THAT(other.output, HasSubstr(" samples compared with the source, "));
     EXPECT_THAT(other.errors,
-                HasSubstr("the file is whole but differs from the given source: bake it again, or "
+                HasSubstr("the file is consistent but differs from the given source: bake it again, or "
                           "name the source and the options that it was baked with"));
 }
 
@@ -224,7 +224,7 @@ TEST(Program, AShotIsSettingsForTheNextOne) {
     ASSERT_TRUE(writePicture({1, 1, {0, 0, 0}}, folder / "empty.png"));
     const Ran empty = runWorldy(folder, "shot planet.chk -o e.png --settings empty.png");
     EXPECT_EQ(empty.exitCode, 2);
-    EXPECT_THAT(empty.errors, HasSubstr("empty.png: holds no settings"));
+    EXPECT_THAT(empty.errors, HasSubstr("empty.png: contains no settings"));
 }
 
 TEST(Program, ACameraBelowGroundIsLifted) {

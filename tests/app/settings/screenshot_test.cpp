@@ -79,8 +79,9 @@ TEST(Screenshot, PicturesWithoutANoteAreRefusedWithWhatWouldBeRight) {
     const TemporaryFolder folder;
     ASSERT_TRUE(writePicture(smallPicture(), folder / "plain.png"));
     EXPECT_THAT(readScreenshotNote(folder / "plain.png").error().message,
-                HasSubstr("plain.png: holds no settings; expected a screenshot taken by Worldy"));
-    EXPECT_THAT(loadSettingsOfAnyKind(folder / "plain.png").error().message, HasSubstr("holds no settings"));
+                HasSubstr("plain.png: contains no settings; expected an unmodified Worldy screenshot"));
+    EXPECT_THAT(loadSettingsOfAnyKind(folder / "plain.png").error().message,
+                HasSubstr("contains no settings"));
     std::ofstream(folder / "junk.png") << "no picture";
     EXPECT_THAT(readScreenshotNote(folder / "junk.png").error().message,
                 HasSubstr("junk.png: cannot be read"));
@@ -112,7 +113,7 @@ TEST(Screenshot, NamesAreOfTheTimeAndNeverTaken) {
     EXPECT_TRUE(writeScreenshot(smallPicture(), folder / "worldy 2026-11-21 14.03.22.png", someNote()));
     const planet::Result<fs::path> nowhere = newScreenshotFile(folder / "none", someTime());
     ASSERT_FALSE(nowhere);
-    EXPECT_THAT(nowhere.error().message, HasSubstr("no picture can be written there"));
+    EXPECT_THAT(nowhere.error().message, HasSubstr("none: cannot be written: "));
 }
 
 }  // namespace

@@ -29,10 +29,10 @@ TEST(FlightPanel, StatusNamesTheFirstFrameThatDiffers) {
     replay.frames = 600;
     replay.frame = 200;
     replay.framesDifferent = 3;
-    replay.difference = "frame 33 at 0.55 s, its selection: +x_pos/3/1/1";
+    replay.difference = "frame 33 at 0.55 s, in the selection: +x_pos/3/1/1";
     EXPECT_EQ(replayStatus(replay),
               "3 of 200 frames differ from the recording. The first: frame 33 at 0.55 s, "
-              "its selection: +x_pos/3/1/1");
+              "in the selection: +x_pos/3/1/1");
 }
 
 TEST(FlightPanel, ChangesAreSteppedThroughOneByOne) {
