@@ -58,8 +58,8 @@ Result<void> readField(const fs::path& file, std::string_view key, const toml::n
         });
     }
     return planet::badInput(
-        fmt::format("{}: {} is not known; a bookmark has name, latitude_deg, longitude_deg, altitude_m, "
-                    "heading_deg and pitch_deg",
+        fmt::format("{}: {} is unknown; expected name, latitude_deg, longitude_deg, altitude_m, "
+                    "heading_deg or pitch_deg",
                     placeOf(file, node), key));
 }
 
@@ -89,7 +89,7 @@ Result<std::vector<ui::Bookmark>> readBookmarks(const fs::path& file) {
     for (const auto& [key, node] : *document) {
         const toml::array* tables = node.as_array();
         if (key.str() != "bookmark" || !tables) {
-            return planet::badInput(fmt::format("{}: {} is not known; expected [[bookmark]] tables",
+            return planet::badInput(fmt::format("{}: {} is unknown; expected [[bookmark]] tables",
                                                 placeOf(file, node), key.str()));
         }
         for (const toml::node& entry : *tables) {

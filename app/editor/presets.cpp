@@ -34,7 +34,7 @@ bool isControl(char letter) {
 }
 
 tl::unexpected<planet::Error> wrongName(std::string_view name, std::string_view why) {
-    return planet::badInput(fmt::format("\"{:.80}\" is not a valid preset name: {}", name, why));
+    return planet::badInput(fmt::format("name \"{:.80}\": {}", name, why));
 }
 
 }  // namespace
@@ -44,16 +44,17 @@ PresetFolders presetFolders() {
 }
 
 Result<void> checkPresetName(std::string_view name) {
-    if (name.empty()) return planet::badInput("A preset needs a name; expected letters, digits and spaces");
+    if (name.empty()) return planet::badInput("name: empty; expected letters, digits and spaces");
     if (name.size() > maxNameBytes)
-        return wrongName(name, fmt::format("it is longer than {} bytes", maxNameBytes));
-    if (!isUtf8(name)) return wrongName("?", "it is not UTF-8");
-    if (std::any_of(name.begin(), name.end(), isControl)) return wrongName("?", "it has control characters");
+        return wrongName(name, fmt::format("{} bytes; expected 1 to {}", name.size(), maxNameBytes));
+    if (!isUtf8(name)) return planet::badInput("name: not UTF-8; expected UTF-8 text");
+    if (std::any_of(name.begin(), name.end(), isControl))
+        return planet::badInput("name: contains control characters; expected printable text");
     if (name.find_first_of("/\\:*?\"<>|") != std::string_view::npos)
-        return wrongName(name, "it contains one of / \\ : * ? \" < > or |");
+        return wrongName(name, "contains one of / \\ : * ? \" < > |; expected none of them");
     if (std::string_view(". ").find(name.front()) != std::string_view::npos ||
         std::string_view(". ").find(name.back()) != std::string_view::npos) {
-        return wrongName(name, "it begins or ends with a dot or a space");
+        return wrongName(name, "begins or ends with a dot or a space; expected neither");
     }
     return {};
 }
@@ -130,7 +131,8 @@ Result<void> PresetLibrary::save(std::string_view name, const ViewSettings& sett
     if (Result<void> good = checkPresetName(name); !good) return good;
     const Preset* present = find(name);
     if (present && present->shipped)
-        return wrongName(name, "a built-in preset has that name and cannot be replaced");
+        return wrongName(name,
+                         "a built-in preset has that name and cannot be replaced; expected another name");
     std::error_code status;
     fs::create_directories(folders_.own, status);
     // A name that differs only in case overwrites the existing file and keeps its name.

@@ -210,7 +210,7 @@ planet::Error missingSource(const fs::path& source) {
         if (const auto good = planet::terrainFromText(source); !good) return good.error();
     }
     return {planet::ErrorKind::BadInput, fmt::format("{}: no such source; expected an elevation image, one "
-                                                     "of six cube faces or a terrain as noise:ridged",
+                                                     "of six cube faces or terrain such as noise:ridged",
                                                      source.string())};
 }
 

@@ -108,7 +108,7 @@ struct ReadField {
         if (!stops.empty() && *heightM <= stops.back().heightM) {
             return wrong(
                 *height,
-                fmt::format("{}: height_m is {}; expected more than the {} of the stop before: lowest first",
+                fmt::format("{}: height_m is {}; expected more than {}, the height of the previous stop",
                             stopName, *heightM, stops.back().heightM));
         }
         const std::optional<glm::vec3> rgb = colourFromText(colour->value_or(std::string()));

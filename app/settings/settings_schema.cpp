@@ -89,7 +89,7 @@ void addSeams(Fields& fields, planet::LodSettings& lod, OverlaySettings& overlay
           "Treatment of cracks between chunks of different levels. None: cracks show. Skirts: vertical "
           "strips along chunk edges hide cracks at the cost of more triangles. Stitched: edge vertices move "
           "onto the coarser neighbour's edge, so no cracks exist; this limits the level difference of "
-          "neighbours, so some chunks are drawn coarser than the tolerance asks for.",
+          "neighbours, so some chunks are drawn coarser than the tolerance requires.",
           Choice{asByte(lod.seams), seamModeNames}},
          {"seams", "depth", "Skirt depth",
           "How the skirt depth is chosen. Automatic: each skirt is as deep as the errors it must hide. "
@@ -131,7 +131,7 @@ void addPaging(Fields& fields, PagingOptions& paging) {
           "once the budget is full.",
           Number{&paging.colourShare, {0.01, 0.9, ""}}},
          {"paging", "normal_share", "Share",
-          "Fraction, of the budget that colours leave, for normals finer than the mesh. Larger: finer "
+          "Fraction of the budget remaining after colours, for normals finer than the mesh. Larger: finer "
           "shading of coarse chunks. Smaller: finer ground when the budget is full.",
           Number{&paging.normalShare, {0.01, 0.9, ""}}, "Fine normals share"},
          {"paging", "retries", "Retries",
@@ -291,10 +291,12 @@ void addSurface(Fields& fields, SurfaceSettings& surface) {
           "Universal time; noon in Greenwich is 12. The subsolar point moves 15° west per hour.",
           Number{&surface.sunDate.hour, {0, 24, "h"}}},
          {"surface", "sun_latitude_deg", "Sun latitude",
-          "Latitude of the subsolar point, north positive, if the sun neither follows nor has a date.",
+          "Latitude of the subsolar point, north positive; used if the sun is fixed, with sun_follows and "
+          "sun_by_date false.",
           Number{&surface.sunLatitudeDeg, {-90, 90, "°"}, "%.0f"}},
          {"surface", "sun_longitude_deg", "Sun longitude",
-          "Longitude of the subsolar point, east positive, if the sun neither follows nor has a date.",
+          "Longitude of the subsolar point, east positive; used if the sun is fixed, with sun_follows and "
+          "sun_by_date false.",
           Number{&surface.sunLongitudeDeg, {-180, 180, "°"}, "%.0f"}}});
 }
 
@@ -422,7 +424,7 @@ void addLight(Fields& fields, planet::gl::LightDrawing& light) {
           "Fine normals, texels per pixel"},
          {"light", "fill", "Fill light",
           "Strength of a debug light on the night side, from the upper left of the view; 0 is off. It is "
-          "left out of pictures that measure: tinted chunks, compared pictures and sweeps.",
+          "off for tinted chunks, comparisons and sweeps.",
           Number{&light.fill, {0, 1, ""}}}});
     addAir(fields, light.air);
 }

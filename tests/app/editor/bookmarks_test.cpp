@@ -88,10 +88,11 @@ TEST(Bookmarks, aBadFileIsToldAndNeverWrittenOver) {
         {good, "line 1: pitch_deg is missing; expected a number in [-90, 90]°"},
         {std::string(good) + "pitch_deg = 95\n", "line 7: pitch_deg is 95; expected a number in [-90, 90]°"},
         {std::string(good) + "pitch_deg = nan\n", "line 7: pitch_deg is nan"},
-        {std::string(good) + "pitch_deg = 5\nroll_deg = 1\n", "line 8: roll_deg is not known"},
+        {std::string(good) + "pitch_deg = 5\nroll_deg = 1\n",
+         "line 8: roll_deg is unknown; expected name, latitude_deg"},
         {"[[bookmark]]\nlatitude_deg = 1\n", "name is missing"},
         {"bookmark = [1]\n", "line 1: not a table"},
-        {"places = 1\n", "line 1: places is not known"},
+        {"places = 1\n", "line 1: places is unknown; expected [[bookmark]] tables"},
     };
     for (const auto& [text, message] : cases) {
         writeBookmarks(file, text.c_str());

@@ -180,7 +180,7 @@ TEST(Settings, AWrongRampIsRefusedWithTheStopThatIsWrong) {
     EXPECT_THAT(ramp("[{ height_m = 1, colour = \"#102030\", more = 1 }]"),
                 HasSubstr("stop 1 is not a stop"));
     EXPECT_THAT(ramp("[" + good + "," + good + "]"),
-                HasSubstr("stop 2: height_m is 0; expected more than the 0 of the stop before"));
+                HasSubstr("stop 2: height_m is 0; expected more than 0, the height of the previous stop"));
     EXPECT_THAT(ramp("[{ height_m = nan, colour = \"#102030\" }]"), HasSubstr("stop 1: height_m is nan"));
     for (const char* colour : {"", "102030", "#10203", "#1020300", "#10203g", "#-10203", "#+10203", "red"}) {
         EXPECT_THAT(ramp(std::string("[{ height_m = 1, colour = \"") + colour + "\" }]"),

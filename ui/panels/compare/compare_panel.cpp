@@ -37,7 +37,7 @@ int asked(const char* name, const char* question, const std::vector<std::string>
 }
 
 void chooseB(const EditorView& view, Commands& commands) {
-    if (button(view.compare.on ? "Snapshot as B again" : "Snapshot as B",
+    if (button(view.compare.on ? "Replace B by snapshot" : "Snapshot as B",
                "Takes a snapshot of the current settings as B, a second planet from the same file. Later "
                "changes affect A. Doubles the memory."))
         commands.push_back(StartCompare{});
@@ -158,7 +158,7 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
         TableColumn{"Figure", 1.5f, nullptr, "Max drawn bound"},
         TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.", "-99.9 MiB"},
         TableColumn{"A", 1, "The planet shown in the window.", "99.9 MiB"},
-        TableColumn{"B", 1, "The planet it is compared with.", "99.9 MiB"}};
+        TableColumn{"B", 1, "The second planet.", "99.9 MiB"}};
     if (!beginListTable(id, columns, rows.size(), rows.size() + 1, 1)) return;
     const auto key = [&](std::size_t row, std::size_t column) {
         return figureSortKey(rows[row], static_cast<FigureColumn>(column), figures);
@@ -250,8 +250,8 @@ void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings
     if (!compare.problem.empty()) wrappedText(compare.problem, palette().bad);
     if (!compare.on) {
         wrappedText(
-            "Compare what is shown (A) with something else (B): take a snapshot of the settings and change "
-            "some, or choose a preset or a file.",
+            "Compare the shown planet (A) with a second one (B): take a snapshot as B and change A, or "
+            "choose a preset or file as B.",
             palette().dim);
         chooseB(view, commands);
         if (compare.flight.running || compare.flight.last) flightSection(view, state, commands);
@@ -261,7 +261,7 @@ void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings
     pictureControls(compare, settings);
     nowSection(compare, commands);
     flightSection(view, state, commands);
-    if (section("Another B")) chooseB(view, commands);
+    if (section("Change B")) chooseB(view, commands);
 }
 
 }  // namespace worldy::ui

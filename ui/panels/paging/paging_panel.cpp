@@ -169,9 +169,8 @@ void totalsByKind(const FrameStats& stats) {
     constexpr std::array columns = {
         TableColumn{"Kind", 0.6f},
         TableColumn{"Loaded", 0.6f, "Blocks read and made resident."},
-        TableColumn{
-            "Evicted", 0.6f,
-            "Loaded blocks that are no longer resident, to stay within the budget or dropped by hand."},
+        TableColumn{"Evicted", 0.6f,
+                    "Loaded blocks evicted since: by the budget, by changed settings or manually."},
         TableColumn{"Failed", 0.6f, "Failed reads, including those retried later."},
         TableColumn{"Read", 0.7f,
                     "Bytes read from the chunk file. Normals are derived from heights, which are read again "
@@ -215,8 +214,8 @@ void totals(const EditorView& view) {
     valueRow("Requested", loadAndEvict(p.requested, p.pageOutsQueued),
              "Requests of all kinds queued since the file was opened.");
     valueRow("Cancelled", loadAndEvict(p.cancelled - p.pageOutsCancelled, p.pageOutsCancelled),
-             "Requests cancelled by the opposite request or no longer needed.");
-    valueRow("Merged", countCell(p.merged), "Requests of either type repeated while they were queued.");
+             "Requests cancelled by a request of the other type, or no longer needed.");
+    valueRow("Merged", countCell(p.merged), "Requests merged with an identical queued request.");
     endValues();
     totalsByKind(view.stats);
 }

@@ -89,7 +89,7 @@ void colourMemory(const EditorView& view, const SurfaceSettings& surface) {
              "in the Overlay panel shows them.");
     valueRow("Texels updated", countText(static_cast<double>(clipmap.filledTexels)),
              "Texels updated in the last frame: strips that entered the windows by camera movement, and "
-             "areas of newly loaded tiles. After a jump of the camera, all of them.");
+             "areas of newly loaded tiles. After a camera jump, all texels are updated.");
 }
 
 // Draws the controls of colours that the file holds.
@@ -116,7 +116,8 @@ void streamedControls(const EditorView& view, const SettingControls& control, Su
 void colourControls(const EditorView& view, const SettingControls& control, SurfaceSettings& surface) {
     const bool hasOwn = view.planet && view.planet->colour();
     const bool hasAny = hasOwn || view.data.hasColourImage;
-    control(surface.surface, {.help = hasAny ? "" : "No colour image is loaded; the ramp is used for both."});
+    control(surface.surface,
+            {.help = hasAny ? "" : "No colour image is loaded; both choices draw the height ramp."});
     const bool image = surface.surface == planet::gl::SurfaceColour::Image && hasAny;
     beginGrey(!image,
               hasAny ? "The height ramp is drawn: choose the image above." : "No colour image is loaded.");
