@@ -20,7 +20,8 @@ void featureControl(const SettingControls& control, CostlyPart part, const Edito
                                 view.light.turnedDown.tookMs[static_cast<std::size_t>(part)], affordedMs),
                     palette().warning);
         ImGui::PushID(static_cast<int>(part));
-        if (button("Try again", "Turns all reduced features back on until a frame exceeds the budget again."))
+        if (button("Try again",
+                   "Turns the disabled features on again until the GPU frame time exceeds the budget."))
             commands.emplace_back(TryCostlyParts{});
         ImGui::PopID();
     }

@@ -197,12 +197,12 @@ void pointerValues(const Scale& scale, std::span<const float> timesS, std::span<
         ImGui::Text("%s: %s", one.name, valueText(value, unit).c_str());
         sum += value;
     }
-    if (stacked) ImGui::Text("together: %s", valueText(sum, unit).c_str());
+    if (stacked) ImGui::Text("total: %s", valueText(sum, unit).c_str());
     ImGui::EndTooltip();
 }
 
 void nothingYet(const Area& area) {
-    const char* text = "nothing yet";
+    const char* text = "no data yet";
     const ImVec2 size = ImGui::CalcTextSize(text);
     textAt({area.start.x + (area.width() - size.x) / 2, area.start.y + (area.height() - size.y) / 2},
            palette().dim, text);

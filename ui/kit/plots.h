@@ -24,7 +24,7 @@ ImVec4 seriesColour(std::size_t index);
 // longer. The names of the series are above the plot, with their newest values if the series are not stacked.
 // The plot shows the top of its axis with the unit, and a line at mark if mark > 0, for example at tau.
 // Hovering shows the values under the pointer. top 0: the largest value, rounded up. stacked: each series
-// starts at the top of the one before it. Without samples it says that there is nothing yet.
+// starts at the top of the one before it. Without samples it says that there is no data yet.
 void linePlot(const char* id, std::span<const float> timesS, std::span<const Series> series, const char* unit,
               double top = 0, float lines = 4, bool stacked = false, double mark = 0);
 

@@ -40,7 +40,7 @@ std::string gridPlaceText(const ChunkExplanation& chunk) {
 
 std::string drawnText(const ChunkExplanation& chunk) {
     const auto wanted = [&](const std::string& why) {
-        return fmt::format("Wanted to split: {}; {}.", comparison(chunk, ">"), why);
+        return fmt::format("Should split: {}; {}.", comparison(chunk, ">"), why);
     };
     switch (chunk.notSplit) {
         case WhyNotSplit::Leaf:
@@ -80,7 +80,7 @@ std::string splitText(const ChunkExplanation& chunk) {
 
 // Returns why the ancestor that is drawn instead is not split.
 std::string insteadText(const ChunkExplanation& chunk) {
-    const std::string above = toString(chunk.decidedBy) + " above it";
+    const std::string above = "its ancestor " + toString(chunk.decidedBy);
     switch (chunk.decidedByNotSplit) {
         case WhyNotSplit::GoodEnough:
             return fmt::format("{} is within the tolerance ({} {}).", above, epsSymbol(),
@@ -142,7 +142,7 @@ std::string whyText(const ChunkExplanation& chunk) {
         case ChunkState::NotInFile:
             break;
     }
-    return fmt::format("No such chunk: {} above it is a leaf.", toString(chunk.decidedBy));
+    return fmt::format("No such chunk: its ancestor {} is a leaf.", toString(chunk.decidedBy));
 }
 
 const char* stateText(ChunkState state) {

@@ -190,7 +190,7 @@ void compareOverlay(const CompareView& compare, const CompareSettings& shown, co
     if (shown.mode == CompareMode::Difference)
         return drawMiddleLabel(drawList, differenceText(compare, shown, viewport.width), palette().text,
                                viewport);
-    std::string name = sideNames(compare)[shown.showB ? 1 : 0] + "   F9 flips";
+    std::string name = sideNames(compare)[shown.showB ? 1 : 0] + "   F9: flip";
     if (badgeSize(name).x > viewport.width) name = shown.showB ? "B" : "A";
     drawMiddleLabel(drawList, name, shown.showB ? palette().warning : palette().accent, viewport);
 }

@@ -71,10 +71,10 @@ void editMenu(const EditorView& view, ViewSettings& settings, Commands& commands
         return name.empty() ? std::string(verb) : verb + (" " + inFont(name));
     };
     if (menuItem(named("Undo", view.undoName).c_str(), "Ctrl+Z", false,
-                 greyUnless(!view.undoName.empty(), "No setting was changed yet.")))
+                 greyUnless(!view.undoName.empty(), "Nothing to undo.")))
         commands.push_back(Undo{});
     if (menuItem(named("Redo", view.redoName).c_str(), "Ctrl+Shift+Z", false,
-                 greyUnless(!view.redoName.empty(), "Nothing was undone.")))
+                 greyUnless(!view.redoName.empty(), "Nothing to redo.")))
         commands.push_back(Redo{});
     ImGui::Separator();
     if (menuItem("Reset all settings", nullptr, false,
@@ -191,7 +191,7 @@ constexpr std::array keyHelp = {
     KeyHelp{"Ctrl+click on a slider", "type a number"},
     KeyHelp{"Right click on a setting", "reset to its default"},
     KeyHelp{"Double click on a chunk's name", "look at the chunk"},
-    KeyHelp{"Esc", "close what is open, or clear the selection"},
+    KeyHelp{"Esc", "close a menu or window, or clear selection"},
     KeyHelp{"Ctrl+Q", "quit"},
 };
 

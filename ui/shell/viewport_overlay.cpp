@@ -235,10 +235,10 @@ std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSett
     if (view.stats.render.standIn) {
         const bool firstAir = view.light.air.working && view.light.air.tablesMs == 0;
         badges.push_back({firstAir ? "Computing the atmosphere: analytic model drawn"
-                                   : "Compiling shaders: placeholder drawing",
+                                   : "Compiling shaders; stand-in shaders used",
                           palette().warning});
     }
-    if (view.framesPaused) badges.push_back({"Paused, F6 steps (F5)", palette().warning});
+    if (view.framesPaused) badges.push_back({"Paused (F5), step: F6", palette().warning});
     if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
     if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
     if (view.pops.side != PopSide::Live && view.pops.problem.empty())

@@ -58,18 +58,17 @@ TEST(ExplanationText, OfDrawnChunksSaysWhyTheyAreNotSplit) {
               "Drawn: eps 3.1 px > tau 2.0 px, but level 5 is the max LOD level.");
     EXPECT_EQ(
         drawn(WhyNotSplit::SeamLimit, 3.1),
-        "Wanted to split: eps 3.1 px > tau 2.0 px; a neighbour would then be too coarse for stitched seams.");
+        "Should split: eps 3.1 px > tau 2.0 px; a neighbour would then be too coarse for stitched seams.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForMorph, 3.1),
-              "Wanted to split: eps 3.1 px > tau 2.0 px; it first morphs back to its own surface.");
+              "Should split: eps 3.1 px > tau 2.0 px; it first morphs back to its own surface.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForRead, 3.1),
-              "Wanted to split: eps 3.1 px > tau 2.0 px; its children are being read.");
+              "Should split: eps 3.1 px > tau 2.0 px; its children are being read.");
     EXPECT_EQ(drawn(WhyNotSplit::WaitingForBudget, 3.1),
-              "Wanted to split: eps 3.1 px > tau 2.0 px; its children do not fit into the memory budget.");
-    EXPECT_EQ(
-        drawn(WhyNotSplit::WaitingForRetry, 3.1),
-        "Wanted to split: eps 3.1 px > tau 2.0 px; its children could not be read and will be retried.");
+              "Should split: eps 3.1 px > tau 2.0 px; its children do not fit into the memory budget.");
+    EXPECT_EQ(drawn(WhyNotSplit::WaitingForRetry, 3.1),
+              "Should split: eps 3.1 px > tau 2.0 px; its children could not be read and will be retried.");
     EXPECT_EQ(drawn(WhyNotSplit::ChildrenFailed, 3.1),
-              "Wanted to split: eps 3.1 px > tau 2.0 px; its children could not be read.");
+              "Should split: eps 3.1 px > tau 2.0 px; its children could not be read.");
 }
 
 TEST(ExplanationText, PlacesInTheQueueAreCountedAsPeopleCount) {
@@ -78,7 +77,7 @@ TEST(ExplanationText, PlacesInTheQueueAreCountedAsPeopleCount) {
         waiting.queuePlace = place;
         return whySpelled(waiting);
     };
-    const std::string start = "Wanted to split: eps 3.1 px > tau 2.0 px; its children are ";
+    const std::string start = "Should split: eps 3.1 px > tau 2.0 px; its children are ";
     EXPECT_EQ(at(14), start + "14th of 60 in the queue.");
     EXPECT_EQ(at(1), start + "1st of 60 in the queue.");
     EXPECT_EQ(at(2), start + "2nd of 60 in the queue.");
@@ -90,7 +89,7 @@ TEST(ExplanationText, PlacesInTheQueueAreCountedAsPeopleCount) {
 
 TEST(ExplanationText, NumbersThatAreCloseGetMoreDigits) {
     EXPECT_EQ(whySpelled(chunk(ChunkState::Drawn, WhyNotSplit::WaitingForRead, 2.004)),
-              "Wanted to split: eps 2.004 px > tau 2 px; its children are being read.");
+              "Should split: eps 2.004 px > tau 2 px; its children are being read.");
     EXPECT_EQ(whySpelled(chunk(ChunkState::Drawn, WhyNotSplit::GoodEnough, 2)),
               "Drawn: eps 2.0 px is within tau 2.0 px.");
 }
@@ -121,14 +120,15 @@ TEST(ExplanationText, OfResidentChunksNamesWhatIsDrawnInstead) {
         return whySpelled(below(ChunkState::Resident, above, epsPx));
     };
     EXPECT_EQ(resident(WhyNotSplit::GoodEnough, 0.8),
-              "Not drawn: z_pos/4/3/2 above it is within the tolerance (eps 0.8 px).");
+              "Not drawn: its ancestor z_pos/4/3/2 is within the tolerance (eps 0.8 px).");
     EXPECT_EQ(resident(WhyNotSplit::LevelLimit, 3),
-              "Not drawn: z_pos/4/3/2 above it is drawn, and level 4 is the max LOD level.");
-    EXPECT_EQ(resident(WhyNotSplit::SeamLimit, 3),
-              "Not drawn: z_pos/4/3/2 above it is drawn, because a neighbour would otherwise be too coarse "
-              "for stitched seams.");
+              "Not drawn: its ancestor z_pos/4/3/2 is drawn, and level 4 is the max LOD level.");
+    EXPECT_EQ(
+        resident(WhyNotSplit::SeamLimit, 3),
+        "Not drawn: its ancestor z_pos/4/3/2 is drawn, because a neighbour would otherwise be too coarse "
+        "for stitched seams.");
     EXPECT_EQ(resident(WhyNotSplit::WaitingForMorph, 3),
-              "Not drawn: z_pos/4/3/2 above it is drawn until it has morphed back to its own surface.");
+              "Not drawn: its ancestor z_pos/4/3/2 is drawn until it has morphed back to its own surface.");
     EXPECT_EQ(resident(WhyNotSplit::NotDrawn, 3), "Not drawn: no view requests it.");
 }
 
@@ -139,19 +139,20 @@ TEST(ExplanationText, OfMissingChunksSaysWhatTheyWaitFor) {
         return whySpelled(made);
     };
     EXPECT_EQ(missing(WhyNotSplit::GoodEnough),
-              "Not loaded: z_pos/4/3/2 above it is within the tolerance (eps 0.8 px).");
+              "Not loaded: its ancestor z_pos/4/3/2 is within the tolerance (eps 0.8 px).");
     EXPECT_EQ(missing(WhyNotSplit::WaitingInQueue),
-              "Not loaded: z_pos/4/3/2 above it is loaded first, 3rd of 60 in the queue.");
+              "Not loaded: its ancestor z_pos/4/3/2 is loaded first, 3rd of 60 in the queue.");
     EXPECT_EQ(missing(WhyNotSplit::WaitingForRead),
-              "Not loaded: z_pos/4/3/2 above it is loaded first, and is being read.");
+              "Not loaded: its ancestor z_pos/4/3/2 is loaded first, and is being read.");
+    EXPECT_EQ(missing(WhyNotSplit::WaitingForBudget),
+              "Not loaded: its ancestor z_pos/4/3/2 is drawn, because its children do not fit into the "
+              "memory budget.");
     EXPECT_EQ(
-        missing(WhyNotSplit::WaitingForBudget),
-        "Not loaded: z_pos/4/3/2 above it is drawn, because its children do not fit into the memory budget.");
-    EXPECT_EQ(missing(WhyNotSplit::WaitingForRetry),
-              "Not loaded: z_pos/4/3/2 above it is drawn, because its children could not be read; they will "
-              "be retried.");
+        missing(WhyNotSplit::WaitingForRetry),
+        "Not loaded: its ancestor z_pos/4/3/2 is drawn, because its children could not be read; they will "
+        "be retried.");
     EXPECT_EQ(missing(WhyNotSplit::ChildrenFailed),
-              "Not loaded: z_pos/4/3/2 above it is drawn, because its children could not be read.");
+              "Not loaded: its ancestor z_pos/4/3/2 is drawn, because its children could not be read.");
     EXPECT_EQ(missing(WhyNotSplit::NotDrawn), "Not loaded: no view requests it.");
 }
 
@@ -169,7 +170,7 @@ TEST(ExplanationText, OfFailedAndUnknownChunksNamesTheCause) {
     EXPECT_EQ(whySpelled(below(ChunkState::Failed, WhyNotSplit::NotDrawn, 0)),
               "Not loaded: z_pos/4/3/2 could not be read.");
     EXPECT_EQ(whySpelled(below(ChunkState::NotInFile, WhyNotSplit::NotDrawn, 0)),
-              "No such chunk: z_pos/4/3/2 above it is a leaf.");
+              "No such chunk: its ancestor z_pos/4/3/2 is a leaf.");
 }
 
 TEST(ExplanationText, StatesHaveNamesOfTheirOwn) {

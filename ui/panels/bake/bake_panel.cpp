@@ -247,7 +247,7 @@ bool sourceSection(const EditorView& view, BakePanelState& state, BakeRequest& r
 void requestSection(const EditorView& view, BakePanelState& state, Commands& commands) {
     if (!section("Bake settings")) return;
     BakeRequest request = state.edited.value_or(view.bake.current);
-    beginGrey(view.bake.running.has_value(), "A bake is running: wait for its end, or cancel it.");
+    beginGrey(view.bake.running.has_value(), "A bake is running; wait or cancel it.");
     bool changed = sourceSection(view, state, request);
     changed |= chunkSizeControl(view.bake.current, request);
     changed |= faceSizeControl(view.bake.current, request);
@@ -339,7 +339,7 @@ void bakeButtons(const EditorView& view, BakePanelState& state, Commands& comman
     const BakeRequest request = state.edited.value_or(view.bake.current);
     const bool same = sameFile(request, view.bake.current);
     beginGrey(!state.source.problem.empty() || !mayBake(state.colour),
-              "The source or the colour image cannot be baked; see above why.");
+              "The source or the colour image cannot be baked; the reason is shown above.");
     if (button(same ? "Bake again" : "Bake",
                "Bakes in the background, then shows the new planet with the same camera and settings. The "
                "previous bake stays available for comparison.")) {
@@ -413,7 +413,7 @@ void previousSection(const DataView& data, Commands& commands) {
     bool shown = data.showsPreviousBake;
     if (ImGui::Checkbox("Show previous bake", &shown)) commands.push_back(ShowPreviousBake{shown});
     noteItem("Show previous bake");
-    tooltip("Switches between the two bakes; the camera stays. The difference is what the bake changed.");
+    tooltip("Switches between the two bakes; the camera stays.");
     secondColumn("Dismiss");
     if (button("Dismiss", "Frees its memory. Its file stays in the cache."))
         commands.push_back(DismissPreviousBake{});

@@ -80,7 +80,7 @@ void presetList(const EditorView& view, PresetsPanelState& state, Commands& comm
 const char* saveRefusal(const PresetsPanelState& state, const PresetView* same) {
     if (state.name[0] == 0) return "Type a name first.";
     if (same && same->shipped) return "A built-in preset has this name and cannot be replaced.";
-    if (same && !same->problem.empty()) return "The file of this name is not a preset and is not replaced.";
+    if (same && !same->problem.empty()) return "A file with this name is not a preset; choose another name.";
     return nullptr;
 }
 

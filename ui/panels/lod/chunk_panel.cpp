@@ -78,7 +78,7 @@ void whyBox(const ChunkExplanation& explanation) {
 
 void buttons(const ChunkId& id, Commands& commands) {
     if (button("Look at",
-               "Moves the camera to where the whole chunk is in view. Double-clicking the chunk in the net "
+               "Moves the camera so that the whole chunk is visible. Double-clicking the chunk in the net "
                "or the list does the same."))
         commands.emplace_back(LookAtChunk{id});
     sameLineForButton("Copy id");

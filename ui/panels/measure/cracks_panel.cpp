@@ -22,7 +22,7 @@ namespace {
 
 const char* whyNoSkirts(const CracksView& cracks) {
     if (!cracks.measured) return "Measure first.";
-    if (!cracks.current) return "The camera or what is drawn has changed: measure again.";
+    if (!cracks.current) return "The camera or the drawn chunks have changed; measure again.";
     return "Stitched seams have no skirts.";
 }
 
