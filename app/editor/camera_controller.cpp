@@ -198,14 +198,19 @@ std::size_t observerSelection(const Scene& scene, const Viewport& viewport, cons
     return observerChooses(viewport, settings) && scene.planet->views().size() > 1 ? 1 : 0;
 }
 
-void fillView(const CameraController& camera, const Scene* scene, ui::EditorView& view) {
+ui::CameraView cameraViewOf(const CameraController& camera, const Scene* scene,
+                            const planet::View& renderView) {
+    ui::CameraView view;
+    if (scene && camera.rig) {
+        view = cameraViewOf(*camera.rig, groundBelow(*scene, camera.rig->camera.eyeM), camera.bookmarks.list,
+                            camera.flights);
+        view.seaSurfaceM = scene->seaSurfaceM;
+    }
     view.lodView = camera.lodView;
+    view.renderView = renderView;
     view.lodFrozen = camera.lodFrozen;
     view.inspecting = camera.beforeInspection.has_value();
-    if (!scene || !camera.rig) return;
-    view.camera = cameraViewOf(*camera.rig, groundBelow(*scene, camera.rig->camera.eyeM),
-                               camera.bookmarks.list, camera.flights);
-    view.camera.seaSurfaceM = scene->seaSurfaceM;
+    return view;
 }
 
 }  // namespace worldy

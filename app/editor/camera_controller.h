@@ -86,7 +86,9 @@ bool observerChooses(const Viewport& viewport, const CameraSettings& settings);
 // frame has computed it, which is delayed while frames are paused.
 std::size_t observerSelection(const Scene& scene, const Viewport& viewport, const CameraSettings& settings);
 
-// scene: null if no planet is open. Valid until bookmarks or flights change.
-void fillView(const CameraController& camera, const Scene* scene, ui::EditorView& view);
+// scene: null if no planet is open. renderView: of the main picture. Valid until bookmarks or flights
+// change.
+ui::CameraView cameraViewOf(const CameraController& camera, const Scene* scene,
+                            const planet::View& renderView);
 
 }  // namespace worldy

@@ -202,27 +202,22 @@ void Editor::drawPictures(Scene& scene) {
 // frame.
 ui::EditorView Editor::view(Session& session) {
     const ViewSettings& settings = settings_.settings.view;
-    const Scene* scene = shownScene(session);
-    ui::EditorView view{.planet = scene && camera_.rig ? scene->planet.get() : nullptr,
-                        .stats = frames_.stats,
-                        .history = frames_.history,
-                        .changes = instruments_.changes,
-                        .log = window_.logLines};
-    view.renderView = viewport_.main.view;
-    view.framesPaused = frames_.paused;
-    view.timeS = frames_.timeS;
-    view.pagingPaused = paging_.paused;
-    view.focus = chunks_.focus;
-    fillView(camera_, scene, view);
-    fillView(settings_, view);
-    fillView(instruments_, scene, settings, frames_.frame, view);
-    view.data = dataViewOf(session, files_.recentShown);
-    view.bake = bakeViewOf(session);
-    view.recording = recordingViewOf(recording_, settings);
-    view.sweep = sweepViewOf(sweep_);
-    view.compare = compareViewOf(compare_, session, settings, frames_.stats, viewport_.main.view);
-    view.layers = layersViewOf(layers_, scene, settings.surface.layers);
-    return view;
+    const planet::View& view = viewport_.main.view;
+    const Scene* scene = camera_.rig ? shownScene(session) : nullptr;
+    return {.planet = scene ? scene->planet.get() : nullptr,
+            .frames = {frames_.stats, frames_.history, frames_.timeS, frames_.paused},
+            .log = window_.logLines,
+            .pagingPaused = paging_.paused,
+            .focus = chunks_.focus,
+            .data = dataViewOf(session, files_.recentShown),
+            .bake = bakeViewOf(session),
+            .camera = cameraViewOf(camera_, scene, view),
+            .settings = settingsViewOf(settings_),
+            .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
+            .recording = recordingViewOf(recording_, settings),
+            .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
+            .sweep = sweepViewOf(sweep_),
+            .layers = layersViewOf(layers_, scene, settings.surface.layers)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {

@@ -48,7 +48,7 @@ void viewportWindows(const ui::EditorView& view, ViewSettings& settings, Viewpor
     if (viewport.main.shown()) {
         if (view.planet) ui::viewportOverlay(view, settings, viewport.main.rect);
         ImGui::End();
-        if (view.inspecting) ui::inspectionNotice(view, viewport.main.rect, commands);
+        if (view.camera.inspecting) ui::inspectionNotice(view, viewport.main.rect, commands);
     }
     pictureWindow("observer", viewport.observer, pixelRatio);
     if (viewport.observer.shown()) {

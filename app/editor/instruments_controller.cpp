@@ -128,21 +128,22 @@ void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& dr
     watchCosts(drawn, instruments.costs, log);
 }
 
-void fillView(const InstrumentsController& instruments, const Scene* scene, const ViewSettings& settings,
-              std::uint64_t frame, ui::EditorView& view) {
-    if (view.planet && scene) {
-        view.cracks = cracksViewOf(instruments.cracks, *scene, view.renderView, settings);
-        view.pops = popsViewOf(instruments.pops);
-    }
-    view.probe = instruments.probe;
-    view.errors = errorsViewOf(instruments.errors, frame);
-    view.allocations = instruments.allocations;
-    view.light.costs = instruments.costs.costs;
-    view.light.measured = instruments.costs.meter ? instruments.costs.meter->share() : 1;
-    if (!scene) return;
-    view.light.turnedDown = scene->turnedDown;
-    view.light.software = scene->renderer.chunks().capabilities().software;
-    view.light.air = scene->renderer.chunks().airFigures();
+ui::InstrumentsView instrumentsViewOf(const InstrumentsController& instruments, const Scene* scene,
+                                      const planet::View& view, const ViewSettings& settings,
+                                      std::uint64_t frame) {
+    ui::InstrumentsView shown{.changes = instruments.changes,
+                              .allocations = instruments.allocations,
+                              .errors = errorsViewOf(instruments.errors, frame),
+                              .probe = instruments.probe};
+    shown.light.costs = instruments.costs.costs;
+    shown.light.measured = instruments.costs.meter ? instruments.costs.meter->share() : 1;
+    if (!scene) return shown;
+    shown.cracks = cracksViewOf(instruments.cracks, *scene, view, settings);
+    shown.pops = popsViewOf(instruments.pops);
+    shown.light.turnedDown = scene->turnedDown;
+    shown.light.software = scene->renderer.chunks().capabilities().software;
+    shown.light.air = scene->renderer.chunks().airFigures();
+    return shown;
 }
 
 }  // namespace worldy

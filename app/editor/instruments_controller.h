@@ -57,7 +57,8 @@ void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& dr
                         ui::Commands& commands);
 
 // scene: null if no planet is shown. view: of the main picture. Valid until the instruments change.
-void fillView(const InstrumentsController& instruments, const Scene* scene, const ViewSettings& settings,
-              std::uint64_t frame, ui::EditorView& view);
+ui::InstrumentsView instrumentsViewOf(const InstrumentsController& instruments, const Scene* scene,
+                                      const planet::View& view, const ViewSettings& settings,
+                                      std::uint64_t frame);
 
 }  // namespace worldy

@@ -53,10 +53,9 @@ void replaceView(SettingsController& controller, ViewSettings settings, std::str
     controller.settings.view = std::move(settings);
 }
 
-void fillView(SettingsController& controller, ui::EditorView& view) {
-    view.presets = controller.presets.views(controller.settings.view);
-    view.undoName = controller.undo.undoName();
-    view.redoName = controller.undo.redoName();
+ui::SettingsView settingsViewOf(SettingsController& controller) {
+    return {controller.presets.views(controller.settings.view), controller.undo.undoName(),
+            controller.undo.redoName()};
 }
 
 }  // namespace worldy

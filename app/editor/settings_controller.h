@@ -26,6 +26,6 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
 void replaceView(SettingsController& controller, ViewSettings settings, std::string name);
 
 // Valid until the presets change.
-void fillView(SettingsController& controller, ui::EditorView& view);
+ui::SettingsView settingsViewOf(SettingsController& controller);
 
 }  // namespace worldy

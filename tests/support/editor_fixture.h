@@ -47,22 +47,19 @@ public:
 
     ui::EditorView view() const {
         ui::EditorView view{.planet = planet_.get(),
-                            .stats = stats_,
-                            .history = history_,
-                            .changes = changes_,
+                            .frames = {stats_, history_, timeS_},
                             .log = log_,
-                            .lodView = view_,
-                            .renderView = view_,
-                            .timeS = timeS_};
+                            .instruments = {.changes = changes_}};
+        view.camera.lodView = view.camera.renderView = view_;
         view.data.name = "earth.chk";
         view.data.hasColourImage = true;
         view.camera.pose = pose_;
         view.camera.bookmarks = bookmarks_;
-        view.presets = presets_;
-        view.allocations.now = allocations();
-        view.allocations.mark = allocations();
-        view.allocations.mark.heapBytes -= 3 << 20;
-        view.allocations.mark.threads = 5;
+        view.settings.presets = presets_;
+        view.instruments.allocations.now = allocations();
+        view.instruments.allocations.mark = allocations();
+        view.instruments.allocations.mark.heapBytes -= 3 << 20;
+        view.instruments.allocations.mark.threads = 5;
         if (!planet_->selection().draw.empty()) {
             view.focus.selected = planet_->selection().draw.front().id;
             view.focus.hovered = planet_->selection().draw.back().id;

@@ -41,7 +41,7 @@ void drawFrames(const ui::EditorView& view, const PanelInfo& panel, int width, i
                 std::string_view clicked) {
     std::vector<ui::ItemPlace> items;
     ui::PanelStates states;
-    if (!view.presets.empty()) states.presets.selected = view.presets.front().name;
+    if (!view.settings.presets.empty()) states.presets.selected = view.settings.presets.front().name;
     ViewSettings settings;
     ui::Commands commands;
     ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};

@@ -7,7 +7,7 @@ namespace worldy::ui {
 
 CameraHeights cameraHeights(const EditorView& view, const ViewSettings& settings) {
     const double altitudeM = view.camera.pose.altitudeM;
-    const glm::dvec3& eyeM = view.renderView.eyeM;
+    const glm::dvec3& eyeM = view.camera.renderView.eyeM;
     const bool hasPlace = view.planet && glm::dot(eyeM, eyeM) > 0;
     const double groundM = hasPlace ? planet::sampledHeightM(view.planet->tree(), eyeM) : 0;
     const double drawnM = std::max(groundM, view.camera.seaSurfaceM.value_or(groundM));

@@ -37,6 +37,13 @@ struct FrameSample {
     FrameStats stats;  // as measured, not smoothed
 };
 
+struct FramesView {
+    const FrameStats& stats;                 // smoothed
+    const std::deque<FrameSample>& history;  // the last 10 s, oldest first
+    double timeS = 0;
+    bool paused = false;
+};
+
 struct DataView {
     std::string name;                 // "elevation.tif"
     std::filesystem::path source;     // the file that was opened
@@ -99,6 +106,10 @@ struct CameraView {
     std::span<const Bookmark> bookmarks;
     std::span<const std::filesystem::path> flights;  // the flights that can be followed
     std::optional<FlightView> flight;                // the flight being followed
+    planet::View lodView;
+    planet::View renderView;  // of the main picture
+    bool lodFrozen = false;
+    bool inspecting = false;  // EndInspection goes back
 };
 
 struct PresetView {
@@ -109,36 +120,39 @@ struct PresetView {
     bool shipped = false;                          // comes with Worldy and cannot be deleted
 };
 
+struct SettingsView {
+    std::span<const PresetView> presets{};
+    std::string undoName{};  // "Tolerance τ 2 -> 3 px"; empty: nothing to undo
+    std::string redoName{};
+};
+
+// Finished and running measurements of the planet.
+struct InstrumentsView {
+    const planet::LodChanges& changes;
+    AllocationsView allocations{};
+    CracksView cracks{};
+    ErrorsView errors{};
+    LightView light{};
+    PopsView pops{};
+    ProbeView probe{};
+};
+
+// One member per feature, filled by its controller.
 struct EditorView {
     const planet::Planet* planet = nullptr;  // null while none is open
-    const FrameStats& stats;                 // smoothed
-    const std::deque<FrameSample>& history;  // the last 10 s, oldest first
-    const planet::LodChanges& changes;
+    FramesView frames;
     const std::deque<LogLine>& log;
-    planet::View lodView{};
-    planet::View renderView{};
-    bool lodFrozen = false;
-    bool inspecting = false;  // EndInspection goes back
-    bool framesPaused = false;
     bool pagingPaused = false;
-    double timeS = 0;
     ChunkFocus focus{};
     DataView data{};
     BakeView bake{};
     CameraView camera{};
-    std::span<const PresetView> presets{};
-    std::string undoName{};  // "Tolerance τ 2 -> 3 px"; empty: nothing to undo
-    std::string redoName{};
-    ErrorsView errors{};
-    CracksView cracks{};
-    PopsView pops{};
-    ProbeView probe{};
+    SettingsView settings{};
+    InstrumentsView instruments;
     RecordingView recording{};
     CompareView compare{};
     SweepView sweep{};
     LayersView layers{};
-    LightView light{};
-    AllocationsView allocations{};
 };
 
 }  // namespace worldy::ui

@@ -70,18 +70,18 @@ void editMenu(const EditorView& view, ViewSettings& settings, Commands& commands
     const auto named = [](const char* verb, const std::string& name) {
         return name.empty() ? std::string(verb) : verb + (" " + inFont(name));
     };
-    if (menuItem(named("Undo", view.undoName).c_str(), "Ctrl+Z", false,
-                 greyUnless(!view.undoName.empty(), "Nothing to undo.")))
+    if (menuItem(named("Undo", view.settings.undoName).c_str(), "Ctrl+Z", false,
+                 greyUnless(!view.settings.undoName.empty(), "Nothing to undo.")))
         commands.push_back(Undo{});
-    if (menuItem(named("Redo", view.redoName).c_str(), "Ctrl+Shift+Z", false,
-                 greyUnless(!view.redoName.empty(), "Nothing to redo.")))
+    if (menuItem(named("Redo", view.settings.redoName).c_str(), "Ctrl+Shift+Z", false,
+                 greyUnless(!view.settings.redoName.empty(), "Nothing to redo.")))
         commands.push_back(Redo{});
     ImGui::Separator();
     if (menuItem("Reset all settings", nullptr, false,
                  greyUnless(settings != ViewSettings(), "All settings have their defaults.")))
         settings = {};
-    if (beginMenu("Load preset", greyUnless(!view.presets.empty(), "No presets."))) {
-        for (const PresetView& preset : view.presets) {
+    if (beginMenu("Load preset", greyUnless(!view.settings.presets.empty(), "No presets."))) {
+        for (const PresetView& preset : view.settings.presets) {
             if (menuItem(preset.name.c_str(), nullptr, false,
                          greyUnless(preset.problem.empty(), preset.problem.c_str())))
                 commands.push_back(LoadPreset{preset.name});
@@ -143,9 +143,10 @@ void cameraMenu(const EditorView& view, ViewSettings& settings, Commands& comman
     }
     if (menuItem("Reset", "F3")) commands.push_back(ResetCamera{});
     ImGui::Separator();
-    if (menuItem("Freeze LOD", "F2", view.lodFrozen)) commands.push_back(FreezeLod{!view.lodFrozen});
-    if (menuItem("Pause frames", "F5", view.framesPaused))
-        commands.push_back(PauseFrames{!view.framesPaused});
+    if (menuItem("Freeze LOD", "F2", view.camera.lodFrozen))
+        commands.push_back(FreezeLod{!view.camera.lodFrozen});
+    if (menuItem("Pause frames", "F5", view.frames.paused))
+        commands.push_back(PauseFrames{!view.frames.paused});
     if (menuItem("Step one frame", "F6")) commands.push_back(StepFrame{});
     ImGui::Separator();
     const auto observer = [&](const char* name, ObserverMode value) {

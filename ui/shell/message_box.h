@@ -19,7 +19,7 @@ struct Message {
 
 struct Confirmation {
     std::string text;   // "Preset ridge saved"; empty: none
-    double untilS = 0;  // in EditorView::timeS
+    double untilS = 0;  // in FramesView::timeS
 };
 
 // Call every frame. Shows a modal window while there is a message. Clears the message when it is closed by

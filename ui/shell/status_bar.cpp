@@ -53,7 +53,7 @@ std::string shortened(const std::string& text, std::size_t most) {
 
 void planetCells(const EditorView& view, const ViewSettings& settings, Cells& cells) {
     const Palette& colours = palette();
-    const planet::PagingCounters& paging = view.stats.paging;
+    const planet::PagingCounters& paging = view.frames.stats.paging;
     const planet::CameraPose& pose = view.camera.pose;
     cells.add(placeText(pose.latitudeDeg, pose.longitudeDeg), "Camera position: latitude, longitude.",
               colours.text);
@@ -62,8 +62,8 @@ void planetCells(const EditorView& view, const ViewSettings& settings, Cells& ce
         cells.add(distanceText(height.heightM) + " " + height.name, height.explanation, colours.text);
     };
     addHeight(heights.front());
-    const double perSecond = view.stats.frameMs > 0 ? 1000 / view.stats.frameMs : 0;
-    cells.add(fmt::format("{:.1f} ms  {:.0f} FPS", view.stats.frameMs, perSecond),
+    const double perSecond = view.frames.stats.frameMs > 0 ? 1000 / view.frames.stats.frameMs : 0;
+    cells.add(fmt::format("{:.1f} ms  {:.0f} FPS", view.frames.stats.frameMs, perSecond),
               "Frame time and frame rate, including the wait for the monitor.", colours.text);
     const std::uint32_t waiting = paging.queued + paging.loading;
     cells.add(fmt::format("queue {}", waiting), "Blocks queued, being read or waiting for upload.",
@@ -87,7 +87,7 @@ void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name
 
 void warningCells(const EditorView& view, Cells& cells) {
     const Palette& colours = palette();
-    const planet::PagingCounters& paging = view.stats.paging;
+    const planet::PagingCounters& paging = view.frames.stats.paging;
     if (paging.failedForGood() > 0) {
         cells.add(fmt::format("{} failed", paging.failedForGood()),
                   "Blocks that could not be read: see the Failed tab of the Paging panel, and the Log panel.",

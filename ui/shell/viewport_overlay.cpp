@@ -183,7 +183,7 @@ void addPagingBadges(const EditorView& view, const ViewSettings& settings,
 }
 
 bool showsMarks(const EditorView& view, const ViewSettings& settings) {
-    return settings.cracks.mark && view.cracks.current && view.cracks.measured;
+    return settings.cracks.mark && view.instruments.cracks.current && view.instruments.cracks.measured;
 }
 
 // Draws adjacent pixels as one rectangle, with a minimum size so that none is overlooked.
@@ -232,22 +232,22 @@ void pushClip(const Rect& rect) {
 
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
     std::vector<ViewportBadge> badges;
-    if (view.stats.render.standIn) {
-        const bool firstAir = view.light.air.working && view.light.air.tablesMs == 0;
+    if (view.frames.stats.render.standIn) {
+        const bool firstAir = view.instruments.light.air.working && view.instruments.light.air.tablesMs == 0;
         badges.push_back({firstAir ? "Computing the atmosphere: analytic model drawn"
                                    : "Compiling shaders; stand-in shaders used",
                           palette().warning});
     }
-    if (view.framesPaused) badges.push_back({"Paused (F5), step: F6", palette().warning});
-    if (view.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
+    if (view.frames.paused) badges.push_back({"Paused (F5), step: F6", palette().warning});
+    if (view.camera.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
     if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
-    if (view.pops.side != PopSide::Live && view.pops.problem.empty())
-        badges.push_back(
-            {view.pops.side == PopSide::Before ? "Before the level change" : "After the level change",
-             palette().warning});
+    if (view.instruments.pops.side != PopSide::Live && view.instruments.pops.problem.empty())
+        badges.push_back({view.instruments.pops.side == PopSide::Before ? "Before the level change"
+                                                                        : "After the level change",
+                          palette().warning});
     if (view.planet) addPagingBadges(view, settings, badges);
     if (showsMarks(view, settings)) {
-        const planet::gl::CrackMap& map = view.cracks.measured->map;
+        const planet::gl::CrackMap& map = view.instruments.cracks.measured->map;
         const auto leaking = static_cast<std::size_t>(map.leaking);
         if (leaking > 0) badges.push_back({fmt::format("Uncovered pixels: {}", leaking), palette().bad});
         if (map.pixels.size() > leaking) {
@@ -279,7 +279,7 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
     for (const ShownPart& one : parts) {
         if (one.isB || !showsMarks(view, settings)) continue;
         pushClip(one.part);
-        drawCrackMarks(drawList, view.cracks.measured->map, one.whole);
+        drawCrackMarks(drawList, view.instruments.cracks.measured->map, one.whole);
         ImGui::PopClipRect();
     }
     const Legend legend = shownLegend(view, settings.overlay);
@@ -296,7 +296,7 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
         pushClip(one.part);
         drawLabels(drawList, one.isB ? view.compare.planetB : view.planet,
                    one.isB ? view.compare.settingsB->overlay : settings.overlay,
-                   {view.renderView, 0, one.whole, taken});
+                   {view.camera.renderView, 0, one.whole, taken});
         ImGui::PopClipRect();
     }
     compareOverlay(view.compare, settings.compare, viewport);

@@ -15,7 +15,7 @@ namespace worldy::ui {
 // Fills the current window with a picture whose row 0 is at the bottom, as an item that accepts both buttons.
 void viewportPicture(ImTextureID picture, const Rect& viewport);
 
-// Draws into the current window, over the picture of view.renderView in the viewport.
+// Draws into the current window, over the main picture in the viewport rectangle.
 void viewportOverlay(const EditorView& view, const ViewSettings& settings, const Rect& viewport);
 
 // Does the same for the observer's picture, beside the main picture or in its place: the view's name, and

@@ -35,7 +35,8 @@ TEST(Shortcuts, escClosesTheHelpWindowsOneByOneAndThenSelectsNothing) {
     const std::deque<ui::FrameSample> history;
     const planet::LodChanges changes;
     const std::deque<LogLine> log;
-    const ui::EditorView view{.stats = stats, .history = history, .changes = changes, .log = log};
+    const ui::EditorView view{
+        .frames = {.stats = stats, .history = history}, .log = log, .instruments = {.changes = changes}};
     ViewSettings settings;
     Workspace workspace;
     ui::MenuState menu{true, true};

@@ -39,8 +39,8 @@ protected:
 
     ui::Commands frame() {
         ui::Commands commands;
-        view_.pops = popsViewOf(pops_);
-        view_.timeS += 1;
+        view_.instruments.pops = popsViewOf(pops_);
+        view_.frames.timeS += 1;
         window_.frame([&] { ui::drawPanel(PanelId::Pops, view_, states_, settings_, commands); });
         return commands;
     }
@@ -74,7 +74,8 @@ protected:
     std::deque<ui::FrameSample> history_;
     planet::LodChanges changes_;
     std::deque<LogLine> log_;
-    ui::EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
+    ui::EditorView view_{
+        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
     ui::PanelStates states_;
     ViewSettings settings_;
 };

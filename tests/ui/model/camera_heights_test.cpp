@@ -38,12 +38,13 @@ struct Viewed {
     const std::deque<FrameSample> history;
     const planet::LodChanges changes;
     const std::deque<LogLine> log;
-    EditorView view{.stats = stats, .history = history, .changes = changes, .log = log};
+    EditorView view{
+        .frames = {.stats = stats, .history = history}, .log = log, .instruments = {.changes = changes}};
 
     Viewed(const planet::Planet& planet, const planet::CameraPose& pose) {
         view.planet = &planet;
         view.camera.pose = pose;
-        view.renderView = planet::viewFromPose(pose, planet.tree().shape.radiusM, 1, 640, 480);
+        view.camera.renderView = planet::viewFromPose(pose, planet.tree().shape.radiusM, 1, 640, 480);
     }
 };
 
@@ -55,7 +56,7 @@ TEST(CameraHeights, areOfThePointBelowTheCamera) {
     ViewSettings settings;
     settings.surface.seaLevelM = 100;
     settings.surface.exaggeration = 2;
-    const double groundM = planet::sampledHeightM(planet->tree(), viewed.view.renderView.eyeM);
+    const double groundM = planet::sampledHeightM(planet->tree(), viewed.view.camera.renderView.eyeM);
     const CameraHeights heights = cameraHeights(viewed.view, settings);
     EXPECT_DOUBLE_EQ(heights.aboveGroundM, pose.altitudeM - groundM);
     EXPECT_DOUBLE_EQ(heights.aboveDrawnM, pose.altitudeM - groundM);

@@ -64,9 +64,11 @@ TEST(PanelSettings, everyViewSettingHasAControl) {
     const std::deque<FrameSample> history;
     const planet::LodChanges changes;
     const std::deque<LogLine> log;
-    EditorView view{
-        .planet = planet.get(), .stats = stats, .history = history, .changes = changes, .log = log};
-    view.lodView = lodView;
+    EditorView view{.planet = planet.get(),
+                    .frames = {.stats = stats, .history = history},
+                    .log = log,
+                    .instruments = {.changes = changes}};
+    view.camera.lodView = lodView;
     view.compare.on = true;
     PanelWindow window({700, 4000});
     PanelStates states;

@@ -23,7 +23,7 @@ protected:
         planet_->settle(
             view, {}, [](std::uint32_t, std::span<const std::int16_t>) {}, planet::timeoutS);
         view_.planet = planet_.get();
-        view_.lodView = view;
+        view_.camera.lodView = view;
     }
 
     Commands frame(PanelId id) {
@@ -52,7 +52,8 @@ protected:
     std::deque<FrameSample> history_;
     planet::LodChanges changes_;
     std::deque<LogLine> log_;
-    EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
+    EditorView view_{
+        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
     PanelStates states_;
     ViewSettings settings_;
     int wantedChunkSize_ = 0;  // as if it had been chosen from the list
@@ -85,7 +86,7 @@ TEST_F(PanelControls, freezeAsksForTheOppositeOfWhatIs) {
     const Commands freeze = click(PanelId::Lod, "Freeze (F2)");
     ASSERT_TRUE(only<FreezeLod>(freeze));
     EXPECT_TRUE(only<FreezeLod>(freeze)->frozen);
-    view_.lodFrozen = true;
+    view_.camera.lodFrozen = true;
     const Commands thaw = click(PanelId::Lod, "Freeze (F2)");
     ASSERT_TRUE(only<FreezeLod>(thaw));
     EXPECT_FALSE(only<FreezeLod>(thaw)->frozen);
@@ -148,7 +149,7 @@ TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAl
     fine.tauPx = 0.02;
     ASSERT_TRUE(planet_->settle(planet::viewAt(10, 20, 2e4), fine, planet::noUpload, planet::timeoutS));
     view_.planet = planet_.get();
-    view_.lodView = planet_->views()[0].input.lodView;
+    view_.camera.lodView = planet_->views()[0].input.lodView;
     stats_.paging = planet_->paging();
     const std::vector<planet::FailedBlock> failed = planet_->inspect().failedBlocks();
     ASSERT_GT(failed.size(), 2u);
@@ -158,7 +159,7 @@ TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAl
     EXPECT_FALSE(window_.isShown("Retry " + toString(failed[1].block)));
     EXPECT_TRUE(click(PanelId::Paging, "Failed blocks").empty());
     for (int i = 0; i < 12; ++i) {
-        view_.timeS += 0.1;
+        view_.frames.timeS += 0.1;
         frame(PanelId::Paging);
     }
     const Commands one = click(PanelId::Paging, "Retry " + toString(failed[1].block));
@@ -169,7 +170,7 @@ TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAl
     planet_->tools().retryFailed();
     stats_.paging = planet_->paging();
     for (int i = 0; i < 12; ++i) {
-        view_.timeS += 0.1;
+        view_.frames.timeS += 0.1;
         EXPECT_TRUE(frame(PanelId::Paging).empty());
     }
     EXPECT_FALSE(window_.isShown("Retry failed"));
@@ -204,7 +205,7 @@ TEST_F(PanelControls, framesAreSteppedOnlyWhilePaused) {
     const Commands pause = click(PanelId::Frame, "Pause");
     ASSERT_TRUE(only<PauseFrames>(pause));
     EXPECT_TRUE(only<PauseFrames>(pause)->paused);
-    view_.framesPaused = true;
+    view_.frames.paused = true;
     EXPECT_TRUE(only<StepFrame>(click(PanelId::Frame, "Step")));
 }
 
@@ -292,7 +293,7 @@ TEST_F(PanelControls, aLayerSetThatWasRefusedKeepsItsName) {
 
 TEST_F(PanelControls, aFileThatIsNoPresetIsNotReplaced) {
     const std::array presets = {PresetView{.name = "broken", .problem = "line 1"}, PresetView{.name = "own"}};
-    view_.presets = presets;
+    view_.settings.presets = presets;
     const auto replaced = [&](std::string_view name) {
         states_.presets.name.fill(0);
         name.copy(states_.presets.name.data(), name.size());
@@ -339,8 +340,8 @@ protected:
         openPlanet();
         view_.camera.flights = flights_;
         view_.data.source = "/data/heights.tif";
-        view_.renderView.widthPx = 640;
-        view_.renderView.heightPx = 480;
+        view_.camera.renderView.widthPx = 640;
+        view_.camera.renderView.heightPx = 480;
         table_.source = "/data/heights.tif";
         table_.points = {{17, planet::ErrorMetric::Additive, 1}, {own(), planet::ErrorMetric::Tight, 3}};
         table_.points[0].figures = {12, 9000, 9500, 40, 8, 5, 1, 0.5, 0.3, 0.6, 0};

@@ -256,7 +256,7 @@ void requestSection(const EditorView& view, BakePanelState& state, Commands& com
     changed |= colourControls(view, state.colour, request, commands);
     changed |= effortControls(view, request);
     endGrey();
-    if (changed) edited(request, view.timeS, state);
+    if (changed) edited(request, view.frames.timeS, state);
 }
 
 // Returns true unless a chosen image is missing. If the source's own image is missing, the bake has no
@@ -266,7 +266,7 @@ bool mayBake(const ColourEdit& colour) {
 }
 
 void askForEstimate(const EditorView& view, BakePanelState& state, Commands& commands) {
-    if (!state.estimateAtS || view.timeS < *state.estimateAtS || view.bake.running) return;
+    if (!state.estimateAtS || view.frames.timeS < *state.estimateAtS || view.bake.running) return;
     state.estimateAtS.reset();
     if (state.edited && state.source.problem.empty() && mayBake(state.colour))
         commands.push_back(EstimateBake{*state.edited});

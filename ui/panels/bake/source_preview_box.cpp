@@ -29,10 +29,10 @@ bool samePicture(const PreviewRequest& a, const PreviewRequest& b) {
 void ask(const EditorView& view, const PreviewRequest& wanted, PreviewBoxState& state, Commands& commands) {
     if (!state.wanted || !samePicture(*state.wanted, wanted)) {
         state.wanted = wanted;
-        state.askAtS = view.timeS + previewAfterS;
+        state.askAtS = view.frames.timeS + previewAfterS;
         state.asked = false;
     }
-    if (state.asked || view.timeS < state.askAtS) return;
+    if (state.asked || view.frames.timeS < state.askAtS) return;
     state.asked = true;
     commands.push_back(PreviewSource{wanted});
 }

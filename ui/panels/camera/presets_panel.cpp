@@ -18,9 +18,9 @@ namespace worldy::ui {
 namespace {
 
 const PresetView* presetNamed(const EditorView& view, const std::string& name) {
-    const auto found = std::find_if(view.presets.begin(), view.presets.end(),
+    const auto found = std::find_if(view.settings.presets.begin(), view.settings.presets.end(),
                                     [&](const PresetView& preset) { return preset.name == name; });
-    return found == view.presets.end() ? nullptr : &*found;
+    return found == view.settings.presets.end() ? nullptr : &*found;
 }
 
 std::string explanationOf(const PresetView& preset) {
@@ -56,7 +56,7 @@ void presetRow(const PresetView& preset, PresetsPanelState& state, Commands& com
 }
 
 void presetList(const EditorView& view, PresetsPanelState& state, Commands& commands) {
-    if (view.presets.empty()) {
+    if (view.settings.presets.empty()) {
         wrappedText("There are no presets.", palette().dim);
         return;
     }
@@ -64,15 +64,15 @@ void presetList(const EditorView& view, PresetsPanelState& state, Commands& comm
         TableColumn{"Name", 6, nullptr, "crack hunting"},
         TableColumn{"Changes", 1, "Number of current settings that it would change.", "unreadable"},
         TableColumn{"Origin", 0.5f, nullptr, "built-in"}};
-    if (!beginListTable("presets", columns, view.presets.size(), 16)) return;
+    if (!beginListTable("presets", columns, view.settings.presets.size(), 16)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
-        const PresetView& preset = view.presets[row];
+        const PresetView& preset = view.settings.presets[row];
         if (column == 0) return preset.name;
         if (column == 2) return preset.shipped ? 0.0 : 1.0;
         return preset.problem.empty() ? static_cast<double>(preset.differences.size()) : -1;
     };
-    tableRows(view.presets.size(), key,
-              [&](std::size_t row) { presetRow(view.presets[row], state, commands); });
+    tableRows(view.settings.presets.size(), key,
+              [&](std::size_t row) { presetRow(view.settings.presets[row], state, commands); });
     ImGui::EndTable();
 }
 

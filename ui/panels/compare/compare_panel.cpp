@@ -47,13 +47,13 @@ void chooseB(const EditorView& view, Commands& commands) {
             commands.push_back(StartCompare{With::PreviousBake, {}, {}});
     }
     std::vector<std::string> presets, files;
-    for (const PresetView& preset : view.presets) presets.push_back(preset.name);
+    for (const PresetView& preset : view.settings.presets) presets.push_back(preset.name);
     for (const std::filesystem::path& file : view.data.recent) files.push_back(file.filename().string());
     const int preset = asked("Preset as B", "A preset as B...", presets, "No presets.",
                              "B uses the current settings with the preset applied.");
     if (preset >= 0)
         commands.push_back(
-            StartCompare{With::Preset, view.presets[static_cast<std::size_t>(preset)].name, {}});
+            StartCompare{With::Preset, view.settings.presets[static_cast<std::size_t>(preset)].name, {}});
     const int file = asked("File as B", "A file as B...", files, "No recent files.",
                            "Recently opened chunk files or baked sources. The radius must match, because one "
                            "camera shows both.");

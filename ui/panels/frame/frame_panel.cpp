@@ -56,29 +56,29 @@ void stagePlot(const EditorView& view, const char* id, const char* unit, std::sp
     std::vector<Series> series;
     series.reserve(stages.size());
     for (std::size_t i = 0; i < stages.size(); ++i)
-        series.push_back({stages[i].name, seriesColour(i), historyValues(view.history, stages[i].ms)});
+        series.push_back({stages[i].name, seriesColour(i), historyValues(view.frames.history, stages[i].ms)});
     linePlot(id, times, series, unit, 0, lines, true);
 }
 
 void pauseControls(const EditorView& view, Commands& commands) {
-    bool paused = view.framesPaused;
+    bool paused = view.frames.paused;
     if (ImGui::Checkbox("Pause", &paused)) commands.push_back(PauseFrames{paused});
     noteItem("Pause");
     tooltip("Pauses movement, LOD selection and loading; the panels stay active.");
     sameLineForButton("Step");
-    beginGrey(!view.framesPaused, "Pause frames first.");
+    beginGrey(!view.frames.paused, "Pause frames first.");
     if (button("Step", "While paused: runs one frame.")) commands.push_back(StepFrame{});
     endGrey();
 }
 
 std::vector<ValueRow> timeRows(const EditorView& view) {
-    const FrameStats& stats = view.stats;
+    const FrameStats& stats = view.frames.stats;
     const double perSecond = stats.frameMs > 0 ? 1000 / stats.frameMs : 0;
     std::vector<ValueRow> rows = {
         {"Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time."},
         {"Frame", millisecondsText(stats.frameMs),
          "Time from the start of one frame to the next, including the wait for the monitor."},
-        {"Longest, last 10 s", millisecondsText(longestFrameMs(view.history)),
+        {"Longest, last 10 s", millisecondsText(longestFrameMs(view.frames.history)),
          "Longest frame of the last 10 seconds. Switching a feature on may take one long frame."}};
     for (const Stage& stage : cpuStages)
         rows.push_back(
@@ -92,7 +92,7 @@ std::vector<ValueRow> timeRows(const EditorView& view) {
 // Draws the stages of each frame stacked; time that no stage counts is left out. The results of GPU timer
 // queries arrive some frames late, because the CPU does not wait for them.
 void plots(const EditorView& view, bool wide) {
-    const std::vector<float> sampleTimes = historyTimes(view.history);
+    const std::vector<float> sampleTimes = historyTimes(view.frames.history);
     // The other lines are the legends.
     const float lines = wide ? linesThatFit(2, 4, 12) : 4;
     stagePlot(view, "cpu", "ms CPU", cpuStages, sampleTimes, lines);
@@ -100,7 +100,7 @@ void plots(const EditorView& view, bool wide) {
 }
 
 std::vector<ValueRow> countRows(const EditorView& view) {
-    const FrameStats& stats = view.stats;
+    const FrameStats& stats = view.frames.stats;
     return {{terms::drawnChunks.name, countText(stats.selection.drawn), terms::drawnChunks.meaning},
             {terms::triangles.name, countText(static_cast<double>(stats.selection.triangles())),
              terms::triangles.meaning},
@@ -120,7 +120,7 @@ Bar memoryBar(const char* name, double bytes, std::size_t colour) {
 }
 
 void memoryByKind(const EditorView& view) {
-    const FrameStats& stats = view.stats;
+    const FrameStats& stats = view.frames.stats;
     const double chunksCpu = asBytes(stats.paging.residentBytesCpu);
     const double process = asBytes(stats.processBytes);
     const std::array cpu = {memoryBar("Resident chunks", chunksCpu, 0),
@@ -153,7 +153,7 @@ void memoryByKind(const EditorView& view) {
 // Draws the button that measures features. Features within one draw call cannot be timed separately, so the
 // view is drawn with and without each.
 void partCosts(const EditorView& view, Commands& commands) {
-    const bool measuring = view.light.measured < 1;
+    const bool measuring = view.instruments.light.measured < 1;
     beginGrey(measuring || !view.planet,
               view.planet ? "The measurement is running." : "Open a planet first.");
     if (button("Measure features",
@@ -161,12 +161,14 @@ void partCosts(const EditorView& view, Commands& commands) {
                "shows medians. The window is slow meanwhile."))
         commands.emplace_back(MeasureCosts{});
     endGrey();
-    if (measuring) usageBar(view.light.measured, fmt::format("{:.0f} %", 100 * view.light.measured));
+    if (measuring)
+        usageBar(view.instruments.light.measured,
+                 fmt::format("{:.0f} %", 100 * view.instruments.light.measured));
 }
 
 std::vector<ValueRow> partRows(const EditorView& view) {
     std::vector<ValueRow> rows;
-    for (const PartCost& cost : view.light.costs)
+    for (const PartCost& cost : view.instruments.light.costs)
         rows.push_back({cost.part,
                         fmt::format("{:+.1f} ms, {:.2f} x", cost.withMs - cost.withoutMs,
                                     cost.withMs / std::max(cost.withoutMs, 1e-6)),
@@ -190,7 +192,8 @@ void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
     const auto drawCounts = [&] {
         valueRows("counts", counts);
         memoryByKind(view);
-        if (section("Allocations")) allocationTable(view.allocations, view.timeS, commands);
+        if (section("Allocations"))
+            allocationTable(view.instruments.allocations, view.frames.timeS, commands);
     };
     float timesWidth = valuesWidth(times, "99.9 ms");
     if (!parts.empty()) timesWidth = std::max(timesWidth, valuesWidth(parts, "+99.9 ms, 1.23 x"));

@@ -12,7 +12,7 @@ namespace worldy::ui {
 namespace {
 
 void figures(const EditorView& view) {
-    const planet::gl::AirFigures& air = view.light.air;
+    const planet::gl::AirFigures& air = view.instruments.light.air;
     if (!beginValues("air")) return;
     valueRow("Table build time",
              air.tablesMs > 0 ? millisecondsText(air.tablesMs) : std::string("not built yet"),
@@ -34,7 +34,7 @@ void airControls(const EditorView& view, const SettingControls& control, Surface
     control(surface.atmosphere);
     beginGrey(!surface.atmosphere, "Turn on Atmosphere first.");
     featureControl(control, CostlyPart::Air, view, surface, commands);
-    beginGrey(!planet::gl::isUsed(air.use, view.light.software), "The physical model is off.");
+    beginGrey(!planet::gl::isUsed(air.use, view.instruments.light.software), "The physical model is off.");
     control(air.settings.rayleigh);
     control(air.settings.haze);
     control(air.settings.ozone);

@@ -58,11 +58,11 @@ void cullingControls(const EditorView& view, const SettingControls& control, pla
                      Commands& commands) {
     control(lod.frustumCulling);
     control.beside(lod.horizonCulling);
-    bool frozen = view.lodFrozen;
+    bool frozen = view.camera.lodFrozen;
     if (frozen) ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
     if (ImGui::Checkbox("Freeze (F2)", &frozen)) commands.push_back(FreezeLod{frozen});
     noteItem("Freeze (F2)");
-    if (view.lodFrozen) ImGui::PopStyleColor();
+    if (view.camera.lodFrozen) ImGui::PopStyleColor();
     tooltip(
         "Keeps the current selection while the camera moves, to inspect it from outside. No other chunks are "
         "selected until it is turned off.");
@@ -121,7 +121,7 @@ void chunkSizeControl(const EditorView& view, Commands& commands) {
 }
 
 void formulas(const EditorView& view, double tauPx) {
-    const double screenScale = planet::screenScalePx(view.lodView);
+    const double screenScale = planet::screenScalePx(view.camera.lodView);
     const std::string formula = inFont("ε = δc K' / D     d_m = δc K");
     ImGui::TextDisabled("%s", formula.c_str());
     tooltip(
@@ -144,7 +144,7 @@ std::string preciseErrorText(float px) {
 }
 
 void drawnValues(const EditorView& view, double tauPx) {
-    const planet::SelectionCounters& s = view.stats.selection;
+    const planet::SelectionCounters& s = view.frames.stats.selection;
     if (!beginValues("drawn")) return;
     valueRow("Visited", countText(s.visited), "Quadtree nodes visited by the selection.");
     valueRow("Culled", fmt::format("{} + {}", countText(s.culledFrustum), countText(s.culledHorizon)),
@@ -193,18 +193,18 @@ void levelBars(const planet::Planet& planet) {
 }
 
 void drawnPlots(const EditorView& view, double tauPx) {
-    const std::vector<float> times = historyTimes(view.history);
+    const std::vector<float> times = historyTimes(view.frames.history);
     const std::array counts = {
         Series{"drawn", seriesColour(0),
-               historyValues(view.history, [](const FrameStats& s) { return s.selection.drawn; })},
+               historyValues(view.frames.history, [](const FrameStats& s) { return s.selection.drawn; })},
         Series{"visited", seriesColour(1),
-               historyValues(view.history, [](const FrameStats& s) { return s.selection.visited; })}};
+               historyValues(view.frames.history, [](const FrameStats& s) { return s.selection.visited; })}};
     linePlot("counts", times, counts, "");
     // A chunk that contains the eye has an unbounded error, so errors far above the tolerance are clamped.
     const auto top = static_cast<float>(16 * tauPx);
     const std::string name = fmt::format("max {} (clamped at 16 {})", epsSymbol(), tauSymbol());
     const std::array errors = {
-        Series{name.c_str(), seriesColour(3), historyValues(view.history, [top](const FrameStats& s) {
+        Series{name.c_str(), seriesColour(3), historyValues(view.frames.history, [top](const FrameStats& s) {
                    return std::min(s.selection.worstEpsPx, top);
                })}};
     linePlot("errors", times, errors, "px", 0, 3, false, tauPx);
@@ -223,7 +223,7 @@ std::vector<planet::ChunkId> lastThrashing(const planet::LodChanges& changes) {
 }
 
 void changes(const EditorView& view, Commands& commands) {
-    const planet::LodChanges& c = view.changes;
+    const planet::LodChanges& c = view.instruments.changes;
     const std::size_t thrashing = c.thrashRecent();
     if (beginValues("changes")) {
         valueRow("Splits", fmt::format("{:.0f}/s", c.splitsPerS()),

@@ -235,8 +235,9 @@ void net(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanel
     drawRects(drawList, state.rects);
     faceNames(drawList, placement);
     const double radiusM = view.planet->tree().shape.radiusM;
-    if (view.lodFrozen) drawCamera(drawList, placement, view.renderView, radiusM, palette().dim);
-    drawCamera(drawList, placement, view.lodView, radiusM, {1, 1, 1, 1});
+    if (view.camera.lodFrozen)
+        drawCamera(drawList, placement, view.camera.renderView, radiusM, palette().dim);
+    drawCamera(drawList, placement, view.camera.lodView, radiusM, {1, 1, 1, 1});
     if (view.focus.hovered)
         outlineChunk(drawList, placement, *view.focus.hovered, {1, 1, 1, 1}, ImGui::GetFontSize() / 13);
     if (view.focus.selected)

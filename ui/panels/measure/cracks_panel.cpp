@@ -33,8 +33,9 @@ void measureControls(const EditorView& view, ViewSettings& settings, Commands& c
                "the current skirts) and compares them. Takes as long as several frames."))
         commands.emplace_back(MeasureCracks{});
     sameLineIfRoom(ImGui::CalcTextSize("Find smallest skirts").x + ImGui::GetFontSize());
-    beginGrey(!view.cracks.current || view.cracks.measured->seams == planet::SeamMode::Stitched,
-              whyNoSkirts(view.cracks));
+    beginGrey(!view.instruments.cracks.current ||
+                  view.instruments.cracks.measured->seams == planet::SeamMode::Stitched,
+              whyNoSkirts(view.instruments.cracks));
     if (button(
             "Find smallest skirts",
             "Searches for the smallest fixed depth and the smallest automatic factor that leave no uncovered "
@@ -143,13 +144,13 @@ void values(const CracksView& cracks, bool replayed, planet::LodSettings& lod) {
 void goButton(const EditorView& view, const planet::ChunkId& finer, const glm::dvec3& placeM,
               Commands& commands) {
     ImGui::TableNextColumn();
-    const CrackMeasurement& measured = *view.cracks.measured;
+    const CrackMeasurement& measured = *view.instruments.cracks.measured;
     inspectButton(measured.lodView, measured.view, finer, placeM, view.planet->tree().shape.radiusM,
                   commands);
 }
 
 void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& commands) {
-    const CrackMeasurement& measured = *view.cracks.measured;
+    const CrackMeasurement& measured = *view.instruments.cracks.measured;
     const bool hasPair = spot.pair != planet::noPair;
     if (hasPair)
         goButton(view, measured.items[measured.pairs[spot.pair].finer], spot.placeM, commands);
@@ -163,7 +164,7 @@ void spotRow(const EditorView& view, const planet::CrackSpot& spot, Commands& co
 }
 
 void spotTable(const EditorView& view, Commands& commands) {
-    const std::vector<planet::CrackSpot>& spots = view.cracks.measured->spots;
+    const std::vector<planet::CrackSpot>& spots = view.instruments.cracks.measured->spots;
     if (spots.empty()) return wrappedText("There are no crack pixels in this view.", palette().dim);
     // Go comes first: a narrow panel scrolls the last columns out of sight.
     const std::string chunk = widestChunkName(view);
@@ -176,7 +177,7 @@ void spotTable(const EditorView& view, Commands& commands) {
         if (column <= 1) return static_cast<double>(spot.pixels);
         if (column == 2) return static_cast<double>(spot.leaking);
         if (spot.pair == planet::noPair) return std::string();
-        const CrackMeasurement& measured = *view.cracks.measured;
+        const CrackMeasurement& measured = *view.instruments.cracks.measured;
         const planet::DrawnPair& pair = measured.pairs[spot.pair];
         return sortKey(measured.items[pair.finer]);
     };
@@ -204,7 +205,7 @@ void gapRow(const EditorView& view, const planet::EdgeGap& gap, Commands& comman
 }
 
 void gapTable(const EditorView& view, Commands& commands) {
-    const std::vector<planet::EdgeGap>& gaps = view.cracks.measured->gaps;
+    const std::vector<planet::EdgeGap>& gaps = view.instruments.cracks.measured->gaps;
     if (gaps.empty()) return wrappedText("All adjacent edges match.", palette().dim);
     const std::string chunk = widestChunkName(view);
     const std::array columns = {TableColumn{"##go", 0.1f, nullptr, "Go xx"},
@@ -228,14 +229,14 @@ void gapTable(const EditorView& view, Commands& commands) {
 void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settings, Commands& commands) {
     if (section("Cracks")) measureControls(view, settings, commands);
     if (!view.planet) return emptyState("No planet is open. Open one to measure cracks.");
-    if (!view.cracks.measured)
+    if (!view.instruments.cracks.measured)
         return emptyState("Not measured yet. Press Measure to count the crack pixels of the current view.");
-    if (!view.cracks.current) {
+    if (!view.instruments.cracks.current) {
         wrappedText("Out of date: the camera or the drawn chunks have changed since this measurement.",
                     palette().warning);
     }
-    beginGrey(!view.cracks.current, "Out of date: measure again.");
-    if (section("Results")) values(view.cracks, view.recording.replay.has_value(), settings.lod);
+    beginGrey(!view.instruments.cracks.current, "Out of date: measure again.");
+    if (section("Results")) values(view.instruments.cracks, view.recording.replay.has_value(), settings.lod);
     if (section("Crack clusters")) spotTable(view, commands);
     if (section("Edge gaps")) gapTable(view, commands);
     endGrey();

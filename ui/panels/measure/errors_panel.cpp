@@ -34,7 +34,7 @@ std::string finePx(double px, const char* unit = " px") {
 }
 
 void errorsControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
-    const ErrorsView& errors = view.errors;
+    const ErrorsView& errors = view.instruments.errors;
     beginGrey(errors.running, "A measurement is running.");
     if (button(
             "Measure",
@@ -64,17 +64,18 @@ void errorsControls(const EditorView& view, ViewSettings& settings, Commands& co
 
 // Shows the measured frame and its settings.
 void measuredWhen(const EditorView& view, const ErrorMeasurement& last) {
-    const std::uint64_t since = view.errors.frame - std::min(view.errors.frame, last.frame);
+    const std::uint64_t since =
+        view.instruments.errors.frame - std::min(view.instruments.errors.frame, last.frame);
     const std::string when =
         fmt::format("Frame {}, {} ago. {} {}, {} metric. Duration {}.", last.frame,
                     since == 1 ? "1 frame" : fmt::format("{} frames", since), tauSymbol(),
                     pixelsText(last.tauPx), last.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
                     millisecondsText(1000 * last.tookS));
-    if (view.errors.current)
+    if (view.instruments.errors.current)
         wrappedText(when, palette().dim);
     else
         wrappedText("Out of date: the view, the settings or the drawn chunks have changed. " + when,
-                    view.errors.keepMeasuring ? palette().dim : palette().warning);
+                    view.instruments.errors.keepMeasuring ? palette().dim : palette().warning);
     tooltip("The list shows the chunks drawn in that frame for its LOD view.");
 }
 
@@ -191,7 +192,7 @@ void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& c
     commands.push_back(HoverChunk{chunk.id});
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) commands.push_back(SelectChunk{chunk.id});
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        const planet::View& from = view.errors.last->lodView;
+        const planet::View& from = view.instruments.errors.last->lodView;
         commands.push_back(inspectionOf(from, from, chunk.worstM, view.planet->tree().shape.radiusM));
     }
     ImGui::BeginTooltip();
@@ -205,7 +206,7 @@ void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& c
 }
 
 void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands) {
-    const ErrorMeasurement& last = *view.errors.last;
+    const ErrorMeasurement& last = *view.instruments.errors.last;
     checkbox("Logarithmic", state.logarithmic, true,
              "Shows both axes over four decades. Off: linear from 0, where small errors overlap.");
     const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize());
@@ -237,7 +238,7 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
 }
 
 void goToWorst(const ChunkError& chunk, const EditorView& view, Commands& commands) {
-    const planet::View& from = view.errors.last->lodView;
+    const planet::View& from = view.instruments.errors.last->lodView;
     inspectButton(from, from, chunk.id, chunk.worstM, view.planet->tree().shape.radiusM, commands);
 }
 
@@ -275,7 +276,7 @@ void worstList(const EditorView& view, Commands& commands) {
     std::array columns = worstColumns;
     columns[0].widest = widest.c_str();
     if (!beginWideTable("worst", columns, 1)) return;
-    const ErrorMeasurement& last = *view.errors.last;
+    const ErrorMeasurement& last = *view.instruments.errors.last;
     const auto chunkOf = [&](std::size_t row) -> const ChunkError& {
         return last.report.chunks[last.worstFirst[row]];
     };
@@ -309,8 +310,8 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
     if (!view.planet)
         return emptyState("No planet is open. Open one to measure the true error of drawn chunks.");
     errorsControls(view, settings, commands);
-    if (!view.errors.last) {
-        return emptyState(view.errors.running
+    if (!view.instruments.errors.last) {
+        return emptyState(view.instruments.errors.running
                               ? "The first measurement is running."
                               : "Press Measure to compare the drawn surface with the finest data.");
     }
@@ -318,8 +319,8 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
     const std::array columns = {
         Column{"Measured", 1, 0,
                [&] {
-                   measuredWhen(view, *view.errors.last);
-                   figures(*view.errors.last);
+                   measuredWhen(view, *view.instruments.errors.last);
+                   figures(*view.instruments.errors.last);
                }},
         Column{"Measured against drawn bound", 1, 0, [&] { scatter(view, state, commands); }},
         Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, commands); }}};

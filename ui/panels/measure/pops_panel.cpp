@@ -29,14 +29,14 @@ constexpr std::size_t buckets = 40;
 
 void refresh(const EditorView& view, PopsPanelState& state) {
     PopsPanelState::Sample& sample = state.sample;
-    const PopMeter& meter = *view.pops.meter;
-    const bool current = sample.meter == &meter && view.timeS >= sample.takenAtS &&
-                         view.timeS < sample.takenAtS + popsSampledEveryS &&
+    const PopMeter& meter = *view.instruments.pops.meter;
+    const bool current = sample.meter == &meter && view.frames.timeS >= sample.takenAtS &&
+                         view.frames.timeS < sample.takenAtS + popsSampledEveryS &&
                          meter.totals().switches >= sample.switches;
     if (current) return;
     sample = {};
     sample.meter = &meter;
-    sample.takenAtS = view.timeS;
+    sample.takenAtS = view.frames.timeS;
     sample.switches = meter.totals().switches;
     std::vector<float> positions;
     for (const PopEvent& event : meter.events()) {
@@ -51,12 +51,12 @@ void refresh(const EditorView& view, PopsPanelState& state) {
 }
 
 void popsControls(const EditorView& view, PopsPanelState& state, Commands& commands) {
-    bool measuring = view.pops.measuring;
+    bool measuring = view.instruments.pops.measuring;
     if (ImGui::Checkbox("Measure", &measuring)) commands.push_back(MeasurePops{measuring});
     noteItem("Measure");
     tooltip(fmt::format("Measures every level change as it happens; mean cost so far {:.0f} µs per change. "
                         "Off: no changes are recorded and no time is spent.",
-                        view.pops.meter->measuredUsPerSwitch())
+                        view.instruments.pops.meter->measuredUsPerSwitch())
                 .c_str());
     sameLineForButton("Clear");
     if (button("Clear", "Discards all measurements.")) {
@@ -69,9 +69,10 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
     popsControls(view, state, commands);
     const PopsPanelState::Sample& sample = state.sample;
     if (sample.seen == 0) {
-        wrappedText(view.pops.measuring ? "No level changes that count in the last five minutes. Fly, or "
-                                          "change a setting in the LOD panel."
-                                        : "Not measuring.",
+        wrappedText(view.instruments.pops.measuring
+                        ? "No level changes that count in the last five minutes. Fly, or "
+                          "change a setting in the LOD panel."
+                        : "Not measuring.",
                     palette().dim);
     } else {
         // The value has a line to itself; it could otherwise be broken at the decimal point.
@@ -95,7 +96,7 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
 }
 
 void totals(const EditorView& view, const PopsPanelState& state) {
-    const PopMeter& meter = *view.pops.meter;
+    const PopMeter& meter = *view.instruments.pops.meter;
     const planet::PopTotals& t = meter.totals();
     const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
     if (!beginValues("totals")) return;
@@ -143,7 +144,7 @@ void totals(const EditorView& view, const PopsPanelState& state) {
 }
 
 void flip(const EditorView& view, Commands& commands) {
-    const PopsView& pops = view.pops;
+    const PopsView& pops = view.instruments.pops;
     constexpr std::array<const char*, 3> names = {"Live", "Before", "After"};
     constexpr std::array<const char*, 3> meanings = {
         "Draws the current selection.", "Draws all chunks as in the frame before the level change.",
@@ -185,7 +186,7 @@ void selectedValues(const PopEvent& event) {
 }
 
 void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& commands) {
-    const auto& events = view.pops.meter->events();
+    const auto& events = view.instruments.pops.meter->events();
     const auto found = std::find_if(events.begin(), events.end(), [&](const PopEvent& event) {
         return state.selected && keyOf(event) == *state.selected;
     });
@@ -202,14 +203,14 @@ void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& comm
         ImGui::SameLine();
         chunkLink(found->chunk, view, commands);
     }
-    if (view.pops.shown) flip(view, commands);
+    if (view.instruments.pops.shown) flip(view, commands);
     if (found != events.end()) selectedValues(*found);
 }
 
 void timeline(const EditorView& view, PopsPanelState& state, bool wide, Commands& commands) {
     const float spare = ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeightWithSpacing();
     const float lines = wide ? std::clamp(spare * 0.4f, 3.0f, 12.0f) : 6;
-    if (const auto clicked = popTimeline(*view.pops.meter, lines, state.selected, state.timeline))
+    if (const auto clicked = popTimeline(*view.instruments.pops.meter, lines, state.selected, state.timeline))
         state.selected = clicked;
     ImGui::TextDisabled("%s up to %s", durationText(state.timeline.spanS).c_str(),
                         state.timeline.behindS > 0
@@ -227,7 +228,7 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
     if (!planet::counts(event)) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
     ImGui::TableNextColumn();
     const bool isSelected = state.selected == keyOf(event);
-    const double agoS = std::max(view.pops.meter->lastTimeS() - event.timeS, 0.0);
+    const double agoS = std::max(view.instruments.pops.meter->lastTimeS() - event.timeS, 0.0);
     // The id after ### keeps the row's identity while the time changes.
     const std::string ago = fmt::format("{:.{}f} s###row", agoS, agoS < 10 ? 1 : 0);
     if (ImGui::Selectable(ago.c_str(), isSelected, ImGuiSelectableFlags_SpanAllColumns))
@@ -244,7 +245,7 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
 }
 
 void worstFirst(const EditorView& view, PopsPanelState& state) {
-    const auto& events = view.pops.meter->events();
+    const auto& events = view.instruments.pops.meter->events();
     if (events.empty()) return emptyState("No level changes recorded.");
     const std::string chunk = widestChunkName(view);
     const std::array columns = {TableColumn{"Ago", 0.8f, nullptr, "123 s"},
@@ -294,12 +295,12 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
 }  // namespace
 
 void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings&, Commands& commands) {
-    if (!view.planet || !view.pops.meter)
+    if (!view.planet || !view.instruments.pops.meter)
         return emptyState("No planet is open. Open one to measure jumps at level changes.");
     refresh(view, state);
     const bool wide = hasWideRoom();
     const auto rows =
-        static_cast<float>(std::clamp<std::size_t>(view.pops.meter->events().size() + 2, 3, 14));
+        static_cast<float>(std::clamp<std::size_t>(view.instruments.pops.meter->events().size() + 2, 3, 14));
     const std::array columns = {Column{"Jumps", 1, 0,
                                        [&] {
                                            jumps(view, state, commands);

@@ -62,7 +62,7 @@ void buttons(const EditorView& view, Commands& commands) {
                "Evicts all chunks and colour tiles except the six roots, and cancels all queued requests, to "
                "show how the picture loads again."))
         commands.push_back(DropAll{});
-    const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingCounters& p = view.frames.stats.paging;
     if (p.failedForGood() + p.awaitingRetry() == 0) return;
     ImGui::PushStyleColor(ImGuiCol_Text, p.failedForGood() > 0 ? palette().bad : palette().warning);
     const std::string label = fmt::format("Retry {} failed###retry", p.failedForGood() + p.awaitingRetry());
@@ -76,7 +76,7 @@ void buttons(const EditorView& view, Commands& commands) {
 }
 
 bool hasNormals(const EditorView& view) {
-    return view.stats.paging[planet::BlockKind::Normals].capacity > 0;
+    return view.frames.stats.paging[planet::BlockKind::Normals].capacity > 0;
 }
 
 // Returns true if the planet has other kinds of blocks than heights.
@@ -89,7 +89,7 @@ std::size_t tileBytes(const planet::Planet& planet) {
 }
 
 void colourMemory(const EditorView& view) {
-    const planet::BlockCounters& p = view.stats.paging[planet::BlockKind::Colours];
+    const planet::BlockCounters& p = view.frames.stats.paging[planet::BlockKind::Colours];
     const double bytes = static_cast<double>(tileBytes(*view.planet));
     const double used = static_cast<double>(p.resident) * bytes;
     const double room = p.capacity * bytes;
@@ -111,7 +111,7 @@ void colourMemory(const EditorView& view) {
 }
 
 void normalMemory(const EditorView& view) {
-    const planet::BlockCounters& p = view.stats.paging[planet::BlockKind::Normals];
+    const planet::BlockCounters& p = view.frames.stats.paging[planet::BlockKind::Normals];
     constexpr double bytes = planet::normalTileBytes;
     const double used = static_cast<double>(p.resident) * bytes;
     const double room = p.capacity * bytes;
@@ -128,7 +128,7 @@ void normalMemory(const EditorView& view) {
 }
 
 void residentMemory(const EditorView& view) {
-    const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingCounters& p = view.frames.stats.paging;
     const planet::PagingSettings& settings = view.planet->pagingSettings();
     const bool hasColours = view.planet->colour().has_value();
     const double used = static_cast<double>(p.residentBytesCpu + p.residentBytesGpu);
@@ -206,7 +206,7 @@ void totalsByKind(const FrameStats& stats) {
 }
 
 void totals(const EditorView& view) {
-    const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingCounters& p = view.frames.stats.paging;
     if (!beginValues("totals")) return;
     const auto loadAndEvict = [](std::uint64_t loads, std::uint64_t evictions) {
         return fmt::format("{} load, {} evict", countCell(loads), countCell(evictions));
@@ -217,7 +217,7 @@ void totals(const EditorView& view) {
              "Requests cancelled by a request of the other type, or no longer needed.");
     valueRow("Merged", countCell(p.merged), "Requests merged with an identical queued request.");
     endValues();
-    totalsByKind(view.stats);
+    totalsByKind(view.frames.stats);
 }
 
 void badDisk(const SettingControls& control, PagingOptions& paging) {
@@ -296,10 +296,10 @@ void refresh(const EditorView& view, PagingPanelState& state) {
     const bool current = sample.planet == view.planet && sample.shownView == state.shownView &&
                          sample.shownKind == state.shownKind &&
                          sample.latencyOfReading == state.latencyOfReading &&
-                         sample.failedShown == state.failedShown && view.timeS >= sample.takenAtS &&
-                         view.timeS < sample.takenAtS + pagingSampledEveryS;
+                         sample.failedShown == state.failedShown && view.frames.timeS >= sample.takenAtS &&
+                         view.frames.timeS < sample.takenAtS + pagingSampledEveryS;
     if (current) return;
-    sample.takenAtS = view.timeS;
+    sample.takenAtS = view.frames.timeS;
     sample.planet = view.planet;
     sample.shownView = state.shownView;
     sample.shownKind = state.shownKind;
@@ -420,11 +420,11 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
 
 const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
     if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No requests of this kind.";
-    const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingCounters& p = view.frames.stats.paging;
     if (p.awaitingRetry() > 0)
         return "The queue is empty: missing blocks could not be read and will be retried.";
     if (p.failedForGood() > 0) return "The queue is empty: missing blocks could not be read.";
-    const bool waiting = view.stats.selection.waiting > 0 ||
+    const bool waiting = view.frames.stats.selection.waiting > 0 ||
                          view.planet->views()[0].colours.counters.waiting > 0 ||
                          view.planet->views()[0].normals.counters.waiting > 0;
     return !waiting ? "The queue is empty: all requested blocks are resident." : "The queue is empty.";
@@ -644,25 +644,26 @@ void latencyHistogram(PagingPanelState& state, float lines) {
 void plots(const EditorView& view, PagingPanelState& state, bool wide) {
     // The other lines are two legends, the choice of a latency, and the histogram's axis.
     const float lines = wide ? linesThatFit(3, 5.6f, 8) : 2.5f;
-    const std::vector<float> times = historyTimes(view.history);
+    const std::vector<float> times = historyTimes(view.frames.history);
     const std::array queue = {
         Series{"queued", seriesColour(0),
-               historyValues(view.history, [](const FrameStats& s) { return s.paging.queued; })},
+               historyValues(view.frames.history, [](const FrameStats& s) { return s.paging.queued; })},
         Series{"loading", seriesColour(1),
-               historyValues(view.history, [](const FrameStats& s) { return s.paging.loading; })}};
+               historyValues(view.frames.history, [](const FrameStats& s) { return s.paging.loading; })}};
     linePlot("queueLength", times, queue, "", 0, lines);
     constexpr double windowS = 0.5;
-    const auto read = historyValues<double>(
-        view.history, [](const FrameStats& s) { return static_cast<double>(s.paging.bytesRead()) / 1e6; });
+    const auto read = historyValues<double>(view.frames.history, [](const FrameStats& s) {
+        return static_cast<double>(s.paging.bytesRead()) / 1e6;
+    });
     std::vector<Series> rate = {Series{"read", seriesColour(2), growthPerS(times, read, windowS)}};
     if (view.planet->colour()) {
-        const auto colours = historyValues<double>(view.history, [](const FrameStats& s) {
+        const auto colours = historyValues<double>(view.frames.history, [](const FrameStats& s) {
             return static_cast<double>(s.paging[planet::BlockKind::Colours].bytesRead) / 1e6;
         });
         rate.push_back({"colours", seriesColour(3), growthPerS(times, colours, windowS)});
     }
     if (hasNormals(view)) {
-        const auto normals = historyValues<double>(view.history, [](const FrameStats& s) {
+        const auto normals = historyValues<double>(view.frames.history, [](const FrameStats& s) {
             return static_cast<double>(s.paging[planet::BlockKind::Normals].bytesRead) / 1e6;
         });
         rate.push_back({"normals", seriesColour(4), growthPerS(times, normals, windowS)});
@@ -680,7 +681,7 @@ void pagingControls(const EditorView& view, const SettingControls& control, View
 
 // Draws the tab of failed blocks; its title shows their number.
 void failedTab(const EditorView& view, PagingPanelState& state, Commands& commands) {
-    const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingCounters& p = view.frames.stats.paging;
     const std::uint32_t failed = p.failedForGood() + p.awaitingRetry();
     const ImVec4 colour = p.failedForGood() > 0 ? palette().bad : palette().warning;
     if (failed > 0) ImGui::PushStyleColor(ImGuiCol_Text, colour);
@@ -696,7 +697,7 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
 
 void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
     if (!ImGui::BeginTabBar("tables")) return;
-    const planet::PagingCounters& p = view.stats.paging;
+    const planet::PagingCounters& p = view.frames.stats.paging;
     // The title counts the table's rows, loads and evictions. A longer title would be cut in a narrow dock.
     const std::string queue = fmt::format("Queue {}###queue", state.sample.loads + state.sample.evictions);
     if (ImGui::BeginTabItem(queue.c_str())) {

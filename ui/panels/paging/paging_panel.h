@@ -37,7 +37,7 @@ struct PagingPanelState {
     // Read from the planet about ten times per second, because copying a long queue takes longer than drawing
     // it.
     struct Sample {
-        double takenAtS = -1;  // EditorView::timeS
+        double takenAtS = -1;  // as FramesView::timeS
         const planet::Planet* planet = nullptr;
         int shownView = -1;
         std::optional<planet::BlockKind> shownKind{};

@@ -67,8 +67,8 @@ void clipmapControls(const SettingControls& control, SurfaceSettings& surface) {
 
 // Shows the memory of tiles and of the clipmap, whichever is used.
 void colourMemory(const EditorView& view, const SurfaceSettings& surface) {
-    const planet::gl::GpuMemory& gpu = view.stats.gpuMemory;
-    const ClipmapStats& clipmap = view.stats.clipmap;
+    const planet::gl::GpuMemory& gpu = view.frames.stats.gpuMemory;
+    const ClipmapStats& clipmap = view.frames.stats.clipmap;
     const auto bytes = [](std::size_t count) { return bytesText(static_cast<double>(count)); };
     valueRow("Tile memory", bytes(gpu.colourTiles),
              "GPU memory of the tile pool, the page table and the mipmaps of the root tiles. The clipmap is "
@@ -99,7 +99,7 @@ void streamedControls(const EditorView& view, const SettingControls& control, Su
     control(surface.texelsPerPixel);
     clipmapControls(control, surface);
     endGrey();
-    const std::string& problem = view.stats.clipmap.problem;
+    const std::string& problem = view.frames.stats.clipmap.problem;
     if (!problem.empty()) wrappedText(problem, palette().warning);
     const planet::TileCounters& seen = view.planet->views()[0].colours.counters;
     const planet::BlockCounters& paging = view.planet->paging()[planet::BlockKind::Colours];

@@ -162,8 +162,8 @@ void pictureControl(const EditorView& view, SweepPanelState& state, SweepRequest
                 "more triangles.");
     const auto [width, height] = pictureSizes[static_cast<std::size_t>(state.pictureSize)];
     request.frames = state.frames;
-    request.widthPx = width > 0 ? width : std::max(view.renderView.widthPx, 1);
-    request.heightPx = height > 0 ? height : std::max(view.renderView.heightPx, 1);
+    request.widthPx = width > 0 ? width : std::max(view.camera.renderView.widthPx, 1);
+    request.heightPx = height > 0 ? height : std::max(view.camera.renderView.heightPx, 1);
 }
 
 // Running.

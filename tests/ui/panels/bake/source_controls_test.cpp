@@ -46,7 +46,7 @@ protected:
     // Also lets half a second pass, after which the panel asks for what it needs.
     Commands frame(double afterS = 0) {
         Commands commands;
-        view_.timeS += afterS;
+        view_.frames.timeS += afterS;
         window_.frame([&] { drawPanel(PanelId::Bake, view_, states_, settings_, commands); });
         return commands;
     }
@@ -71,7 +71,8 @@ protected:
     std::deque<FrameSample> history_;
     planet::LodChanges changes_;
     std::deque<LogLine> log_;
-    EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
+    EditorView view_{
+        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
     PanelStates states_;
     ViewSettings settings_;
     Commands asked_;

@@ -53,7 +53,8 @@ TEST(FlightPanel, aRecordingIsSelectedOnceAndAgainUnderTheNameItIsSavedBy) {
     const std::deque<FrameSample> history;
     const planet::LodChanges changes;
     const std::deque<LogLine> log;
-    EditorView view{.stats = stats, .history = history, .changes = changes, .log = log};
+    EditorView view{
+        .frames = {.stats = stats, .history = history}, .log = log, .instruments = {.changes = changes}};
     const auto planet = planet::openFake();
     view.planet = planet.get();
     view.recording.recording = RecordingNow{"flight 7", 1, 60, 1000, false};

@@ -106,7 +106,7 @@ TEST_F(ChunkPanel, BadgesTellWhatChangesHowThePictureIsRead) {
     EditorView view = fixture_.view();
     ViewSettings settings;
     EXPECT_TRUE(viewportBadges(view, settings).empty());
-    view.lodFrozen = view.framesPaused = view.pagingPaused = true;
+    view.camera.lodFrozen = view.frames.paused = view.pagingPaused = true;
     view.data.showsPreviousBake = true;
     settings.paging.badDisk.failureRate = 0.1;
     settings.overlay.wireframe = settings.overlay.cube = true;

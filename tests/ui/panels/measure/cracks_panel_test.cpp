@@ -15,7 +15,7 @@ protected:
     CracksPanel() {
         measured_.required = {42.5, 0.75};
         view_.planet = planet_.get();
-        view_.cracks = {&measured_, true, &smallest_};
+        view_.instruments.cracks = {&measured_, true, &smallest_};
     }
 
     Commands frame() {
@@ -44,7 +44,8 @@ protected:
     std::deque<FrameSample> history_;
     planet::LodChanges changes_;
     std::deque<LogLine> log_;
-    EditorView view_{.stats = stats_, .history = history_, .changes = changes_, .log = log_};
+    EditorView view_{
+        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
     PanelStates states_;
     ViewSettings settings_;
 };
@@ -84,7 +85,7 @@ TEST_F(CracksPanel, withoutCracksThereIsNothingToApply) {
 }
 
 TEST_F(CracksPanel, resultsThatAreOutOfDateAreGreyAndSayWhy) {
-    view_.cracks.current = false;
+    view_.instruments.cracks.current = false;
     click("Apply Smallest depth");
     EXPECT_EQ(settings_, ViewSettings{});
     EXPECT_TRUE(saysWhy("Apply Smallest depth"));
@@ -107,7 +108,7 @@ TEST(CracksView, crackPixelsWithoutAGapComeFromRounding) {
 
 TEST_F(CracksPanel, findSmallestSkirtsSaysWhyItIsGrey) {
     EXPECT_FALSE(saysWhy("Find smallest skirts"));
-    view_.cracks.current = false;
+    view_.instruments.cracks.current = false;
     EXPECT_TRUE(saysWhy("Find smallest skirts"));
 }
 
