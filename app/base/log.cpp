@@ -51,7 +51,7 @@ Log::Log() : sink_(std::make_shared<Sink>()) {
     terminal->set_level(spdlog::level::info);
 }
 
-void Log::moveNewLines(std::deque<LogLine>& lines) {
+void Log::moveNewLines(std::deque<LogLine>& lines) const {
     for (LogLine& line : sink_->takeLines()) lines.push_back(std::move(line));
     while (lines.size() > keptLines) lines.pop_front();
 }

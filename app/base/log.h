@@ -21,7 +21,7 @@ public:
     spdlog::logger* operator->() const { return logger_.get(); }
 
     // Appends the lines logged since the last call and removes the oldest beyond keptLines.
-    void moveNewLines(std::deque<LogLine>& lines);
+    void moveNewLines(std::deque<LogLine>& lines) const;
 
     static constexpr std::size_t keptLines = 2000;
 

@@ -24,8 +24,6 @@ void add(const Scene& scene, ui::Allocations& held) {
 std::size_t jobsOf(const Session& session) {
     std::size_t jobs = session.ending.size();
     jobs += session.bake && session.bake->job;
-    jobs += session.estimate.job != nullptr;
-    jobs += session.preview.job != nullptr;
     return jobs;
 }
 

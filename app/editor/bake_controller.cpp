@@ -1,22 +1,60 @@
 #include "app/editor/bake_controller.h"
 
+#include <utility>
+
+#include "app/editor/instrument_views.h"
 #include "app/editor/overloaded.h"
 
 namespace worldy {
 
-void execute(Session& session, const ui::BakeCommand& command, ui::BakePanelState& panel, const Log& log) {
+void requestEstimate(BakeEstimator& estimator, const BakeRequest& request) {
+    estimator.next = request;
+    estimator.result.reset();
+    estimator.problem.clear();
+    if (estimator.job) estimator.job->cancel();
+}
+
+void advanceEstimate(BakeEstimator& estimator) {
+    if (estimator.job) {
+        const std::optional<planet::Result<planet::BakeEstimate>> result = estimator.job->takeResult();
+        if (!result) return;
+        estimator.job.reset();
+        // A newer question makes this answer worthless.
+        if (!estimator.next) {
+            estimator.result = *result ? std::optional(**result) : std::nullopt;
+            estimator.problem = *result ? std::string() : result->error().message;
+        }
+    }
+    if (!estimator.next) return;
+    const BakeRequest request = *std::exchange(estimator.next, std::nullopt);
+    estimator.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings,
+                                                  request.colour);
+}
+
+void execute(BakeController& controller, const ui::BakeCommand& command, Session& session,
+             ui::BakePanelState& panel, const Log& log) {
     std::visit(
         Overloaded{
             [&](const ui::ChooseColourImage& image) { panel.colour.chosen = image.file; },
             [&](const ui::StartBake& bake) { startBake(session, bake.request, log); },
             [&](const ui::BakeAgain&) { startBake(session, log); },
-            [&](const ui::EstimateBake& estimate) { requestEstimate(session, estimate.request); },
+            [&](const ui::EstimateBake& bake) { requestEstimate(controller.estimator, bake.request); },
             [&](const ui::CancelBake&) { cancelBake(session); },
-            [&](const ui::PreviewSource& preview) { requestPreview(session.preview, preview.request); },
+            [&](const ui::PreviewSource& source) { requestPreview(controller.preview, source.request); },
             [&](const ui::ShowPreviousBake& previous) { showPreviousBake(session, previous.shown); },
             [&](const ui::DismissPreviousBake&) { dismissPreviousBake(session); },
         },
         command);
+}
+
+ui::BakeView bakeViewOf(const BakeController& controller, const Session& session) {
+    ui::BakeView view = bakeViewOf(session);
+    view.estimating = controller.estimator.job || controller.estimator.next;
+    view.estimate = controller.estimator.result;
+    view.estimateProblem = controller.estimator.problem;
+    view.worlds = controller.worlds;
+    view.preview = previewViewOf(controller.preview);
+    return view;
 }
 
 }  // namespace worldy

@@ -8,7 +8,6 @@
 #include "app/base/process_memory.h"
 #include "app/base/stopwatch.h"
 #include "app/editor/allocations.h"
-#include "app/editor/bake_controller.h"
 #include "app/editor/editor_panels.h"
 #include "app/editor/item_map_file.h"
 #include "app/editor/overloaded.h"
@@ -36,8 +35,8 @@ void takeDrops(const Window& window, ui::BakePanelState& panel, ui::Commands& co
 
 }  // namespace
 
-Editor::Editor(const Settings& settings, Log& log)
-    : log_(log), notices_{log}, files_(openFileController()), layers_(openLayers()) {
+Editor::Editor(const Settings& settings, const Log& log)
+    : notices_{log}, files_(openFileController()), layers_(openLayers()) {
     settings_.settings = settings;
     camera_.bookmarks = loadBookmarks(bookmarksFile());
     if (!camera_.bookmarks.problem.empty()) log->warn("{}", camera_.bookmarks.problem);
@@ -61,7 +60,7 @@ WindowContent Editor::windowContent(const Session& session) const {
 void Editor::endFlights(Session& session) {
     Scene* scene = shownScene(session);
     endReplay(recording_, scene, replayContext());
-    stopRecording(recording_, scene ? scene->planet.get() : nullptr, log_);
+    stopRecording(recording_, scene ? scene->planet.get() : nullptr, notices_.log);
 }
 
 void Editor::runFrame(Window& window, Session& session, double secondsSinceLast) {
@@ -80,15 +79,17 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
 
     ui::Commands commands;
     takeDrops(window, window_.panels.bake, commands);
-    advanceSession(session, settings_.settings.view, log_);
+    advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
-    advanceSweep(sweep_, log_);
-    reloadChangedShaders(session, log_);
+    advanceEstimate(bakes_.estimator);
+    advancePreview(bakes_.preview);
+    advanceSweep(sweep_, notices_.log);
+    reloadChangedShaders(session, notices_.log);
     FrameStats stats;
     if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, secondsSinceLast, commands);
 
     const Stopwatch panelWatch;
-    log_.moveNewLines(window_.logLines);
+    notices_.log.moveNewLines(window_.logLines);
     const ViewSettings before = settings_.settings.view;
     const ui::EditorView shown = view(session);
     drawPanels(window_, {session, shown, layout, settings_.settings, viewport_, files_.dialog, notices_},
@@ -117,8 +118,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
 // Call when another planet is shown: the camera stays if possible, measurements are discarded.
 void Editor::meetPlanet(Scene& scene) {
     if (scene.identity == frames_.lastScene) return;
-    // Recording and replay refer to the previous planet, which may no longer exist.
-    stopRecording(recording_, nullptr, log_);
+    // Both are about the planet that they began with, which may be gone.
+    stopRecording(recording_, nullptr, notices_.log);
     endReplay(recording_, nullptr, replayContext());
     scene.planet->tools().keepMoves(false);
     worldy::meetPlanet(camera_, scene.planet->tree().shape.radiusM);
@@ -138,7 +139,7 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     scene.drawn = {};
     viewport_.shaderWait =
         window_.screenshotPending ? planet::gl::ShaderWait::UntilReady : planet::gl::ShaderWait::Never;
-    if (!replaying()) giveSettings(recording_, scene, settings, paging_.paused, log_);
+    if (!replaying()) giveSettings(recording_, scene, settings, paging_.paused, notices_.log);
     placeCameras(camera_, scene, viewport_, settings_.settings);
     const FrameStep step = takeStep(frames_, seconds);
     movePlanet(scene, step);
@@ -146,13 +147,13 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     stepCompared(compare_,
                  {scene, settings, camera_.lodView, mainView(camera_, viewport_, settings.camera),
                   frames_.timeS, frames_.frame, camera_.jumped, step.goesOn, paging_.paused},
-                 log_);
+                 notices_.log);
     const Stopwatch watch;
     drawPictures(scene);
     advanceInstruments(
         instruments_,
-        {scene, viewport_.main, settings_.settings, chunks_.focus, frames_.frame, frames_.timeS}, log_,
-        commands);
+        {scene, viewport_.main, settings_.settings, chunks_.focus, frames_.frame, frames_.timeS},
+        notices_.log, commands);
     if (isShown(settings_.settings.workspace, PanelId::Surface))
         readLayers(layers_, scene, viewport_.main, settings.surface);
     pick(viewport_.main, scene, 0, commands);
@@ -166,12 +167,12 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
 void Editor::movePlanet(Scene& scene, const FrameStep& step) {
     if (step.goesOn)
         moveCameras(camera_, scene, viewport_, settings_.settings.view.camera, replaying(), step.seconds,
-                    log_);
+                    notices_.log);
     if (replaying()) {
-        replayFrame(recording_, scene, replayContext(), step.goesOn ? step.seconds : 0, log_);
+        replayFrame(recording_, scene, replayContext(), step.goesOn ? step.seconds : 0, notices_.log);
     } else if (step.goesOn) {
         chooseChunks(scene, step);
-        if (recordFrame(recording_, *scene.planet, log_)) camera_.flights = availableFlights();
+        if (recordFrame(recording_, *scene.planet, notices_.log)) camera_.flights = availableFlights();
     }
 }
 
@@ -191,11 +192,12 @@ void Editor::chooseChunks(Scene& scene, const FrameStep& step) {
 void Editor::drawPictures(Scene& scene) {
     const ViewSettings& settings = settings_.settings.view;
     const PictureInput input{scene, settings, camera_, chunks_.focus};
-    drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), log_);
+    drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), notices_.log);
     const bool counting = settings.compare.mode == CompareMode::Difference ||
                           isShown(settings_.settings.workspace, PanelId::Compare);
-    drawCompared(compare_, viewport_, settings, chunks_.focus, counting && !scene.drawn.standIn, log_);
-    drawObserverPicture(viewport_, input, instruments_.errors, log_);
+    drawCompared(compare_, viewport_, settings, chunks_.focus, counting && !scene.drawn.standIn,
+                 notices_.log);
+    drawObserverPicture(viewport_, input, instruments_.errors, notices_.log);
 }
 
 // Gathers the data that panels may read. It refers to the session and the controllers and is valid for the
@@ -210,7 +212,7 @@ ui::EditorView Editor::view(Session& session) {
             .pagingPaused = paging_.paused,
             .focus = chunks_.focus,
             .data = dataViewOf(session, files_.recentShown),
-            .bake = bakeViewOf(session),
+            .bake = bakeViewOf(bakes_, session),
             .camera = cameraViewOf(camera_, scene, view),
             .settings = settingsViewOf(settings_),
             .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
@@ -237,13 +239,15 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
             [&](const ui::CameraCommand& c) { worldy::execute(camera_, c, camera, notices_); },
             [&](const ui::PagingCommand& c) {
                 Recorder* const recorder = recording_.recorder ? &*recording_.recorder : nullptr;
-                worldy::execute(paging_, c, scene, recorder, replaying(), log_);
+                worldy::execute(paging_, c, scene, recorder, replaying(), notices_.log);
             },
             [&](const ui::FrameCommand& c) { worldy::execute(frames_, c); },
             [&](const ui::FileCommand& c) {
                 worldy::execute(files_, c, {session, settings_, camera_, replaying()}, notices_, next);
             },
-            [&](const ui::BakeCommand& c) { worldy::execute(session, c, window_.panels.bake, log_); },
+            [&](const ui::BakeCommand& c) {
+                worldy::execute(bakes_, c, session, window_.panels.bake, notices_.log);
+            },
             [&](const ui::SettingsCommand& c) { worldy::execute(settings_, c, replaying(), notices_); },
             [&](const ui::WindowCommand& c) {
                 worldy::execute(window_, c, window, windowContent(session), notices_);
@@ -280,7 +284,8 @@ void Editor::watchAllocations(const Session& session) {
         .frameSamples = frames_.history.size(),
         .recordedBytes = recording_.recorder ? recording_.recorder->encoded().bytes() : 0,
         .jobs = std::size_t{instruments_.errors.job != nullptr} +
-                std::size_t{compare_.flight.job != nullptr} + std::size_t{sweep_.job != nullptr}};
+                std::size_t{compare_.flight.job != nullptr} + std::size_t{sweep_.job != nullptr} +
+                std::size_t{bakes_.estimator.job != nullptr} + std::size_t{bakes_.preview.job != nullptr}};
     const bool wanted = isShown(settings_.settings.workspace, PanelId::Frame);
     worldy::watchAllocations(sources, wanted, std::exchange(instruments_.markAllocations, false),
                              instruments_.allocations);

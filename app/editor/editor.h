@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/base/log.h"
+#include "app/editor/bake_controller.h"
 #include "app/editor/camera_controller.h"
 #include "app/editor/chunk_controller.h"
 #include "app/editor/compare_controller.h"
@@ -27,7 +28,7 @@ namespace worldy {
 // Owns no window and no planet.
 class Editor {
 public:
-    Editor(const Settings& settings, Log& log);
+    Editor(const Settings& settings, const Log& log);
 
     const Settings& settings() const { return settings_.settings; }
     // Writes the positions of controls into a file after each frame.
@@ -54,7 +55,6 @@ private:
     void execute(const ui::Commands& commands, const Window& window, Session& session);
     void watchAllocations(const Session& session);
 
-    Log& log_;
     Notices notices_;
     Viewport viewport_;
     SettingsController settings_;
@@ -63,6 +63,7 @@ private:
     PagingController paging_;
     FrameController frames_;
     FileController files_;
+    BakeController bakes_;
     WindowController window_;
     LayerController layers_;
     InstrumentsController instruments_;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/base/text.h"
-#include "app/editor/instrument_views.h"
 #include "planet/source/terrain.h"
 
 namespace worldy {
@@ -161,23 +160,6 @@ void finishBake(Session& session, const ViewSettings& settings, const Log& log) 
     open->compressionKnown = true;
     open->sourceIsThere = planet::heightSourceExists(bake.request.source);
     show(session, std::move(*open), bake.forComparison);
-}
-
-void advanceEstimate(SessionEstimate& estimate) {
-    if (estimate.job) {
-        const std::optional<Result<planet::BakeEstimate>> result = estimate.job->takeResult();
-        if (!result) return;
-        estimate.job.reset();
-        // The result is discarded if a newer request waits.
-        if (!estimate.next) {
-            estimate.result = *result ? std::optional(**result) : std::nullopt;
-            estimate.problem = *result ? std::string() : result->error().message;
-        }
-    }
-    if (!estimate.next) return;
-    const BakeRequest request = *std::exchange(estimate.next, std::nullopt);
-    estimate.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings,
-                                                 request.colour);
 }
 
 void tellProblems(std::optional<OpenPlanet>& open, const Log& log) {
@@ -343,8 +325,6 @@ void cancelBake(Session& session) {
 void advanceSession(Session& session, const ViewSettings& settings, const Log& log) {
     finishBake(session, settings, log);
     launchWaitingBake(session);
-    advanceEstimate(session.estimate);
-    advancePreview(session.preview);
     if (!session.open && !session.bake && !session.problem) {
         Result<OpenPlanet> open = openPlanet(session, session.data, settings, log);
         if (open)
@@ -399,13 +379,6 @@ void exchangeShown(Session& session, OpenPlanet& other, const Log& log) {
     session.colourFile = shown.colourImage;
 }
 
-void requestEstimate(Session& session, const BakeRequest& request) {
-    session.estimate.next = request;
-    session.estimate.result.reset();
-    session.estimate.problem.clear();
-    if (session.estimate.job) session.estimate.job->cancel();
-}
-
 namespace {
 
 // Returns the shown planet, const if the session is.
@@ -450,11 +423,6 @@ ui::BakeView bakeViewOf(const Session& session) {
     }
     if (session.bakeProblem) view.lastProblem = messageOf(*session.bakeProblem);
     view.lastReport = session.bakeReport;
-    view.estimating = session.estimate.job || session.estimate.next;
-    view.estimate = session.estimate.result;
-    view.estimateProblem = session.estimate.problem;
-    view.worlds = session.worlds;
-    view.preview = previewViewOf(session.preview);
     return view;
 }
 

@@ -13,8 +13,6 @@
 #include "app/base/picture.h"
 #include "app/data/bake_job.h"
 #include "app/data/data_set.h"
-#include "app/data/source_preview.h"
-#include "app/data/worlds.h"
 #include "app/scene/scene.h"
 #include "planet/gl/device/gl_worker.h"
 #include "planet/gl/draw/chunk_programs.h"
@@ -43,13 +41,6 @@ struct SessionBake {
     bool stopping() const { return job && job->cancelling(); }
 };
 
-struct SessionEstimate {
-    std::unique_ptr<EstimateJob> job;
-    std::optional<BakeRequest> next;  // requested while another one was running
-    std::optional<planet::BakeEstimate> result;
-    std::string problem;
-};
-
 struct SessionShaders {
     std::filesystem::path folder;  // empty: the built-in shaders
     std::filesystem::file_time_type changed{};
@@ -73,9 +64,6 @@ struct Session {
     std::vector<std::unique_ptr<BakeJob>> ending;  // cancelled but not finished; nothing waits for them
     std::optional<planet::Error> bakeProblem;      // why the last bake failed
     std::optional<planet::BakeReport> bakeReport;  // of the last bake
-    SessionEstimate estimate;
-    SourcePreviewer preview;
-    std::vector<World> worlds = worldy::worlds();
 };
 
 // Starts a session. If the data set needs a bake, it runs in the background and advanceSession() opens it.
@@ -114,14 +102,12 @@ planet::Result<OpenPlanet> openBeside(const Session& session, const DataSet& dat
 // Swaps other and the shown planet. Requires a shown planet.
 void exchangeShown(Session& session, OpenPlanet& other, const Log& log);
 
-// Replaces the previous request. The estimate is in bakeViewOf().
-void requestEstimate(Session& session, const BakeRequest& request);
-
-// Returns the planet to draw, which is the previous bake if that is shown; null if there is none.
+// The planet that is to be drawn, the previous bake's where that is shown: null while there is nothing.
 const OpenPlanet* shownPlanet(const Session& session);
 Scene* shownScene(Session& session);
 const Scene* shownScene(const Session& session);
 
+// Without what BakeController keeps.
 ui::BakeView bakeViewOf(const Session& session);
 ui::DataView dataViewOf(const Session& session, std::span<const std::filesystem::path> recent);
 

@@ -56,7 +56,6 @@ TEST_F(SessionTest, aPlanetFromNothingIsBakedAndItsFileTellsHowToMakeItAgain) {
     const ui::BakeView bake = bakeViewOf(again);
     EXPECT_EQ(bake.current.source, text);
     EXPECT_TRUE(bake.canBake);
-    EXPECT_EQ(bake.worlds.size(), 4u);
     // A bad text is told as such, and nothing changes.
     BakeRequest request = bake.current;
     request.source = "noise:fbm,octaves=99";
@@ -374,9 +373,6 @@ TEST_F(SessionTest, anOwnImageThatCannotBeReadIsLeftOutAndOneThatIsNamedIsAnErro
     startBake(session, request, log_);
     EXPECT_FALSE(bakeViewOf(session).running);
     EXPECT_THAT(bakeViewOf(session).lastProblem, HasSubstr("/nonexistent/map.png: no such colour image"));
-    requestEstimate(session, request);
-    ASSERT_TRUE(advanceUntil(session, [&] { return !bakeViewOf(session).estimating; }));
-    EXPECT_THAT(bakeViewOf(session).estimateProblem, HasSubstr("/nonexistent/map.png"));
 }
 
 TEST_F(SessionTest, aFileThatIsMovedKnowsItsImageByNameOrSaysWhatItWas) {
@@ -394,30 +390,6 @@ TEST_F(SessionTest, aFileThatIsMovedKnowsItsImageByNameOrSaysWhatItWas) {
     EXPECT_TRUE(shownPlanet(session)->colour());
     EXPECT_TRUE(bakeViewOf(session).current.colour.empty());
     EXPECT_THAT(bakeViewOf(session).lostColours, HasSubstr("colour.png, 2 x 1"));
-}
-
-TEST_F(SessionTest, theLastOfSeveralQuestionsIsAnswered) {
-    const fs::path source = writeSource();
-    Session session = sessionOf(source);
-    ASSERT_TRUE(advanceUntilQuiet(session));
-    requestEstimate(session, requestFor(source, 17, 1025));
-    advanceSession(session, settings_, log_);
-    requestEstimate(session, requestFor(source, 65, 257));
-    EXPECT_TRUE(bakeViewOf(session).estimating);
-    ASSERT_TRUE(advanceUntil(session, [&] { return !bakeViewOf(session).estimating; }));
-    ASSERT_TRUE(bakeViewOf(session).estimate);
-    EXPECT_EQ(planet::chunkSize(bakeViewOf(session).estimate->shape), 65);
-    EXPECT_GT(bakeViewOf(session).estimate->fileBytes, 512);
-}
-
-TEST_F(SessionTest, anEstimateThatCannotBeMadeSaysWhy) {
-    const fs::path source = writeSource();
-    Session session = sessionOf(source);
-    ASSERT_TRUE(advanceUntilQuiet(session));
-    requestEstimate(session, requestFor(source, 17, 1000));
-    ASSERT_TRUE(advanceUntil(session, [&] { return !bakeViewOf(session).estimating; }));
-    EXPECT_FALSE(bakeViewOf(session).estimate);
-    EXPECT_THAT(bakeViewOf(session).estimateProblem, HasSubstr("face size: 1000"));
 }
 
 // As when several are dropped onto the window at once: the planet of the last may lie where that of the first

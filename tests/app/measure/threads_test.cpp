@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "app/editor/bake_controller.h"
 #include "app/measure/comparison_job.h"
 #include "app/measure/error_job.h"
 #include "app/measure/sweep_job.h"
@@ -45,6 +46,8 @@ protected:
     void frame(Session& session) {
         act(session, pick(40));
         advanceSession(session, settings_, log_);
+        advanceEstimate(bakes_.estimator);
+        advancePreview(bakes_.preview);
         if (Scene* scene = shownScene(session)) fly(*scene);
         takeResults();
         ++frames_;
@@ -70,9 +73,9 @@ protected:
             case 7:
                 return openBake(session, requestFor(sources_[0], 17), chunkFiles_[pick(2)], settings_, log_);
             case 8:
-                return requestEstimate(session, requestFor(sources_[pick(2)], 17, 129));
+                return requestEstimate(bakes_.estimator, requestFor(sources_[pick(2)], 17, 129));
             case 9:
-                return preview(session);
+                return preview();
             case 10:
                 return compareBeside(session);
             case 11:
@@ -152,10 +155,10 @@ protected:
         }
     }
 
-    void preview(Session& session) {
+    void preview() {
         PreviewRequest request;
         request.source = sources_[pick(2)];
-        requestPreview(session.preview, request);
+        requestPreview(bakes_.preview, request);
     }
     void compareBeside(const Session& session) {
         auto opened = openBeside(session, chunkFiles_[pick(2)], settings_);
@@ -219,6 +222,7 @@ protected:
                                                 "altitude_m = 1e5\nheading_deg = 30\npitch_deg = -40\n";
         return folder_ / "down.toml";
     }();
+    BakeController bakes_;
     std::optional<OpenPlanet> beside_;
     ErrorMeter errors_;
     std::unique_ptr<ComparisonJob> comparison_;
