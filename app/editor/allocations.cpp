@@ -12,13 +12,13 @@ constexpr double everyS = 1;
 void add(const Scene& scene, ui::Allocations& held) {
     held.gpu += scene.renderer.chunks().gpuMemory();
     const planet::Planet& planet = *scene.planet;
-    ++held.planets;
-    held.chunks += planet.paging()[planet::BlockKind::Heights].resident;
-    held.chunkSlots += planet.paging()[planet::BlockKind::Heights].capacity;
-    held.colourTiles += planet.paging()[planet::BlockKind::Colours].resident;
-    held.normalTiles += planet.paging()[planet::BlockKind::Normals].resident;
-    held.requests += planet.paging().queued + planet.paging().loading;
-    held.rememberedEnds += planet.inspect().pagingHistory().size();
+    ++held.planets.count;
+    held.planets.chunks += planet.paging()[planet::BlockKind::Heights].resident;
+    held.planets.chunkSlots += planet.paging()[planet::BlockKind::Heights].capacity;
+    held.planets.colourTiles += planet.paging()[planet::BlockKind::Colours].resident;
+    held.planets.normalTiles += planet.paging()[planet::BlockKind::Normals].resident;
+    held.planets.requests += planet.paging().queued + planet.paging().loading;
+    held.history.rememberedEnds += planet.inspect().pagingHistory().size();
 }
 
 std::size_t jobsOf(const Session& session) {
@@ -33,19 +33,19 @@ ui::Allocations countAllocations(const AllocationSources& sources) {
     const Session& session = sources.session;
     ui::Allocations held;
     held.atS = sources.timeS;
-    held.residentBytes = residentProcessBytes();
-    held.heapBytes = heapBytesInUse();
-    held.openFiles = openFileHandles();
-    held.threads = runningThreads();
+    held.process.residentBytes = residentProcessBytes();
+    held.process.heapBytes = heapBytesInUse();
+    held.process.openFiles = openFileHandles();
+    held.process.threads = runningThreads();
     held.objects = planet::gl::countObjects();
     if (session.open) add(session.open->scene, held);
     if (session.previous) add(session.previous->scene, held);
     if (sources.other) add(*sources.other, held);
     held.targetBytes = sources.targetBytes;
-    held.logLines = sources.logLines;
-    held.frameSamples = sources.frameSamples;
-    held.recordedBytes = sources.recordedBytes;
-    held.jobs = jobsOf(session) + sources.jobs;
+    held.history.logLines = sources.logLines;
+    held.history.frameSamples = sources.frameSamples;
+    held.history.recordedBytes = sources.recordedBytes;
+    held.process.jobs = jobsOf(session) + sources.jobs;
     return held;
 }
 

@@ -58,8 +58,8 @@ public:
         view.settings.presets = presets_;
         view.instruments.allocations.now = allocations();
         view.instruments.allocations.mark = allocations();
-        view.instruments.allocations.mark.heapBytes -= 3 << 20;
-        view.instruments.allocations.mark.threads = 5;
+        view.instruments.allocations.mark.process.heapBytes -= 3 << 20;
+        view.instruments.allocations.mark.process.threads = 5;
         if (!planet_->selection().draw.empty()) {
             view.focus.selected = planet_->selection().draw.front().id;
             view.focus.hovered = planet_->selection().draw.back().id;
@@ -69,18 +69,18 @@ public:
 
     ui::Allocations allocations() const {
         ui::Allocations held;
-        held.residentBytes = 412 << 20;
-        held.heapBytes = 138 << 20;
-        held.openFiles = 11;
-        held.threads = 7;
+        held.process.residentBytes = 412 << 20;
+        held.process.heapBytes = 138 << 20;
+        held.process.openFiles = 11;
+        held.process.threads = 7;
         held.gpu.heightPool = 64 << 20;
         held.gpu.textures = 31 << 20;
         held.objects = {41, 57, 9, 12, 2, 14, 0, 18};
-        held.planets = 1;
-        held.chunks = planet_->paging()[planet::BlockKind::Heights].resident;
-        held.chunkSlots = planet_->paging()[planet::BlockKind::Heights].capacity;
-        held.rememberedEnds = planet_->inspect().pagingHistory().size();
-        held.frameSamples = history_.size();
+        held.planets.count = 1;
+        held.planets.chunks = planet_->paging()[planet::BlockKind::Heights].resident;
+        held.planets.chunkSlots = planet_->paging()[planet::BlockKind::Heights].capacity;
+        held.history.rememberedEnds = planet_->inspect().pagingHistory().size();
+        held.history.frameSamples = history_.size();
         return held;
     }
 

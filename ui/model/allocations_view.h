@@ -9,30 +9,41 @@
 
 namespace worldy::ui {
 
-struct Allocations {
-    double atS = 0;  // seconds since the program began
-    // Of the process, bytes and counts; 0 if the system does not report them.
+// Bytes and numbers; 0 where the system does not tell.
+struct ProcessAllocations {
     std::size_t residentBytes = 0;
     std::size_t heapBytes = 0;  // allocated and not yet freed
     std::size_t openFiles = 0;  // including sockets and pipes
     std::size_t threads = 0;
-    // Of all open planets and of render targets, bytes.
-    planet::gl::GpuMemory gpu{};
-    std::size_t targetBytes = 0;
-    planet::gl::ObjectCounts objects{};  // of the window's context, including the panels' own
-    // Of all open planets.
-    std::size_t planets = 0;
-    std::size_t chunks = 0;  // resident, as are the tiles below
+    std::size_t jobs = 0;  // bakes and measurements under way in the background
+};
+
+// Of all planets that are open.
+struct PlanetAllocations {
+    std::size_t count = 0;
+    std::size_t chunks = 0;  // resident, as the tiles
     std::size_t chunkSlots = 0;
     std::size_t colourTiles = 0;
     std::size_t normalTiles = 0;
-    std::size_t requests = 0;        // page-ins queued or being read
-    std::size_t rememberedEnds = 0;  // requests in the paging histories
-    // Kept so that the user can look back.
+    std::size_t requests = 0;  // page-ins queued or being read
+};
+
+// What the program keeps for the user to look back at.
+struct HistoryAllocations {
+    std::size_t rememberedEnds = 0;  // of requests
     std::size_t logLines = 0;
     std::size_t frameSamples = 0;
-    std::size_t recordedBytes = 0;  // of a flight being recorded
-    std::size_t jobs = 0;           // background bakes and measurements
+    std::size_t recordedBytes = 0;  // of a flight that is being recorded
+};
+
+struct Allocations {
+    double atS = 0;  // since the program began
+    ProcessAllocations process{};
+    planet::gl::GpuMemory gpu{};         // of all planets that are open
+    std::size_t targetBytes = 0;         // of the pictures drawn into
+    planet::gl::ObjectCounts objects{};  // of the window's context, the panels' own counted in
+    PlanetAllocations planets{};
+    HistoryAllocations history{};
 };
 
 struct AllocationsView {

@@ -24,11 +24,11 @@ const ui::AllocationRow& rowNamed(std::string_view name) {
 
 TEST(AllocationTable, TellsWhatHasChangedSinceTheMark) {
     ui::Allocations before, now;
-    before.heapBytes = 5 << 20;
-    now.heapBytes = 8 << 20;
-    before.threads = 7;
-    now.threads = 4;
-    before.openFiles = now.openFiles = 9;
+    before.process.heapBytes = 5 << 20;
+    now.process.heapBytes = 8 << 20;
+    before.process.threads = 7;
+    now.process.threads = 4;
+    before.process.openFiles = now.process.openFiles = 9;
     EXPECT_EQ(ui::allocationChange(rowNamed("Heap in use"), before, now), "+3.00 MiB");
     EXPECT_EQ(ui::allocationChange(rowNamed("Threads"), before, now), "-3");
     EXPECT_EQ(ui::allocationChange(rowNamed("Open files"), before, now), "=");
@@ -43,10 +43,10 @@ TEST(AllocationTable, TellsWhatHasChangedSinceTheMark) {
 
 TEST(AllocationTable, SortsByUnroundedValuesAndSignedChanges) {
     ui::Allocations before, now;
-    before.heapBytes = 5 << 20;
-    now.heapBytes = (5 << 20) + 1;
-    before.threads = 7;
-    now.threads = 4;
+    before.process.heapBytes = 5 << 20;
+    now.process.heapBytes = (5 << 20) + 1;
+    before.process.threads = 7;
+    now.process.threads = 4;
     const ui::AllocationsView view{now, before};
     const auto key = [&](std::string_view name, ui::AllocationColumn column) {
         const auto row = static_cast<std::size_t>(&rowNamed(name) - ui::allocationRows().data());
@@ -105,30 +105,30 @@ TEST_F(Counting, WhatASessionHoldsIsCountedByKind) {
     watch(0);
     ASSERT_TRUE(allocations.now);
     const ui::Allocations first = *allocations.now;
-    EXPECT_EQ(first.planets, 1u);
-    EXPECT_EQ(first.chunks, 6u);
-    EXPECT_GT(first.openFiles, 3u);
-    EXPECT_GE(first.threads, 2u);
-    EXPECT_GT(first.residentBytes, 1u << 20);
+    EXPECT_EQ(first.planets.count, 1u);
+    EXPECT_EQ(first.planets.chunks, 6u);
+    EXPECT_GT(first.process.openFiles, 3u);
+    EXPECT_GE(first.process.threads, 2u);
+    EXPECT_GT(first.process.residentBytes, 1u << 20);
     EXPECT_EQ(first.gpu.total(), session.open->scene.renderer.chunks().gpuMemory().total());
     EXPECT_GT(first.objects.programs, 0u);
     EXPECT_GT(first.objects.textures, 0u);
-    EXPECT_EQ(first.jobs, 0u);
+    EXPECT_EQ(first.process.jobs, 0u);
     // The same again is not counted before a second has passed; then another bake has come beside it.
     startBake(session, requestFor(writeSource(), 33), log_);
     ASSERT_TRUE(advanceUntilQuiet(session));
     ASSERT_TRUE(session.previous) << (session.bakeProblem ? session.bakeProblem->message : "");
     watch(0.5);
-    EXPECT_EQ(allocations.now->planets, 1u);
+    EXPECT_EQ(allocations.now->planets.count, 1u);
     watch(1.5, false);
-    EXPECT_EQ(allocations.now->planets, 1u);  // nobody looks
+    EXPECT_EQ(allocations.now->planets.count, 1u);  // nobody looks
     watch(1.5);
-    EXPECT_EQ(allocations.now->planets, 2u);
-    EXPECT_EQ(allocations.now->openFiles, first.openFiles + 1);
+    EXPECT_EQ(allocations.now->planets.count, 2u);
+    EXPECT_EQ(allocations.now->process.openFiles, first.process.openFiles + 1);
     EXPECT_GT(allocations.now->objects.buffers, first.objects.buffers);
-    EXPECT_EQ(allocations.mark.planets, 1u);
+    EXPECT_EQ(allocations.mark.planets.count, 1u);
     watch(1.6, false, true);
-    EXPECT_EQ(allocations.mark.planets, 2u);
+    EXPECT_EQ(allocations.mark.planets.count, 2u);
 }
 
 }  // namespace
