@@ -39,11 +39,12 @@ above_india() { pose 14 84 1500000 8 -58; }
 himalaya() { pose 24.5 83 600000 20 -40; }
 window() { printf 'window.width_px = %s\nwindow.height_px = %s\n' "$1" "$2"; }
 slow_disk() { printf 'bad_disk.latency_ms = %s\nbad_disk.failure_rate = %s\n' "$1" "$2"; }
-# Shows one panel alone in a dock of the given width.
+# The keys of all panels.
+panels=$(sed -n 's/^ *{PanelId::[^"]*"[^"]*", "\([^"]*\)".*/\1/p' "$here/app/settings/panel_list.h")
+# A panel alone in a dock of this width.
 only() {
     echo "window.left_width = $2"
-    for panel in lod seams overlay surface camera presets quadtree chunk paging frame bake log \
-        errors cracks pops probe flight compare sweep light; do
+    for panel in $panels; do
         [ "$panel" = "$1" ] && echo "panels.$panel = \"left\"" && echo "panels.${panel}_shown = true" && continue
         echo "panels.${panel}_shown = false"
     done

@@ -29,7 +29,6 @@ enum class PanelId : std::uint8_t {
     Sweep,
     Light
 };
-inline constexpr std::size_t panelCount = 20;
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
 inline constexpr std::size_t dockCount = 3;
@@ -42,7 +41,7 @@ struct PanelInfo {
     Dock dock;             // default dock
     bool shown;            // by default
 };
-inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
+inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::Lod, "LOD", "lod", "Ctrl+1", Dock::Right, true},
     {PanelId::Seams, "Seams", "seams", "Ctrl+6", Dock::Right, true},
     {PanelId::Overlay, "Overlay", "overlay", "Ctrl+4", Dock::Right, true},
@@ -63,6 +62,14 @@ inline constexpr std::array<PanelInfo, panelCount> panelInfos = {{
     {PanelId::Compare, "Compare", "compare", "Ctrl+Shift+6", Dock::Left, false},
     {PanelId::Sweep, "Sweep", "sweep", "Ctrl+Shift+7", Dock::Bottom, false},
     {PanelId::Light, "Light", "light", "Ctrl+Shift+8", Dock::Right, true},
-}};
+});
+inline constexpr std::size_t panelCount = panelInfos.size();
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < panelCount; ++i)
+            if (static_cast<std::size_t>(panelInfos[i].id) != i) return false;
+        return true;
+    }(),
+    "panelInfos: expected the rows in the order of PanelId");
 
 }  // namespace worldy

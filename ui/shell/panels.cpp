@@ -10,21 +10,21 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
         case PanelId::Seams:
             return seamsPanel(view, settings, commands);
         case PanelId::Overlay:
-            return overlayPanel(view, settings, commands);
+            return overlayPanel(view, settings);
         case PanelId::Surface:
             return surfacePanel(view, states.surface, settings, commands);
         case PanelId::Camera:
             return cameraPanel(view, states.camera, settings, commands);
         case PanelId::Presets:
-            return presetsPanel(view, states.presets, settings, commands);
+            return presetsPanel(view, states.presets, commands);
         case PanelId::Quadtree:
             return quadtreePanel(view, states.quadtree, settings, commands);
         case PanelId::Chunk:
-            return chunkPanel(view, states.chunk, settings, commands);
+            return chunkPanel(view, states.chunk, commands);
         case PanelId::Paging:
             return pagingPanel(view, states.paging, settings, commands);
         case PanelId::Frame:
-            return framePanel(view, settings, commands);
+            return framePanel(view, commands);
         case PanelId::Bake:
             return bakePanel(view, states.bake, settings, commands);
         case PanelId::Log:
@@ -32,11 +32,11 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
         case PanelId::Errors:
             return errorsPanel(view, states.errors, settings, commands);
         case PanelId::Cracks:
-            return cracksPanel(view, states.cracks, settings, commands);
+            return cracksPanel(view, settings, commands);
         case PanelId::Pops:
-            return popsPanel(view, states.pops, settings, commands);
+            return popsPanel(view, states.pops, commands);
         case PanelId::Probe:
-            return probePanel(view, states.probe, settings, commands);
+            return probePanel(view, commands);
         case PanelId::Flight:
             return flightPanel(view, states.flight, settings, commands);
         case PanelId::Compare:

@@ -37,9 +37,7 @@ struct PanelStates {
     PresetsPanelState presets;
     LogPanelState log;
     ErrorsPanelState errors;
-    CracksPanelState cracks;
     PopsPanelState pops;
-    ProbePanelState probe;
     FlightPanelState flight;
     ComparePanelState compare;
     SweepPanelState sweep;

@@ -179,7 +179,7 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
 
 }  // namespace
 
-void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings&, Commands& commands) {
+void presetsPanel(const EditorView& view, PresetsPanelState& state, Commands& commands) {
     beginGrey(!view.planet, "Open a planet first.");
     if (button("Copy as command line",
                "Copies a worldy shot command that draws this view with these settings (Ctrl+Shift+C)."))

@@ -14,7 +14,6 @@ struct PresetsPanelState {
 };
 
 // Fills the current window.
-void presetsPanel(const EditorView& view, PresetsPanelState& state, ViewSettings& settings,
-                  Commands& commands);
+void presetsPanel(const EditorView& view, PresetsPanelState& state, Commands& commands);
 
 }  // namespace worldy::ui

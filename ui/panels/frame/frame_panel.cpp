@@ -178,7 +178,7 @@ std::vector<ValueRow> partRows(const EditorView& view) {
 
 }  // namespace
 
-void framePanel(const EditorView& view, ViewSettings&, Commands& commands) {
+void framePanel(const EditorView& view, Commands& commands) {
     const std::vector<ValueRow> times = timeRows(view);
     const std::vector<ValueRow> parts = partRows(view);
     const std::vector<ValueRow> counts = countRows(view);

@@ -6,6 +6,6 @@
 namespace worldy::ui {
 
 // Fills the current window.
-void framePanel(const EditorView& view, ViewSettings& settings, Commands& commands);
+void framePanel(const EditorView& view, Commands& commands);
 
 }  // namespace worldy::ui

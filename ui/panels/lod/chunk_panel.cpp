@@ -372,7 +372,7 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
 
 }  // namespace
 
-void chunkPanel(const EditorView& view, ChunkPanelState& state, ViewSettings&, Commands& commands) {
+void chunkPanel(const EditorView& view, ChunkPanelState& state, Commands& commands) {
     if (!view.planet) return emptyState("No planet is open. Open one to inspect its chunks.");
     idField(view, state, commands);
     if (!view.focus.selected) {

@@ -20,6 +20,6 @@ struct ChunkPanelState {
 };
 
 // Fills the current window.
-void chunkPanel(const EditorView& view, ChunkPanelState& state, ViewSettings& settings, Commands& commands);
+void chunkPanel(const EditorView& view, ChunkPanelState& state, Commands& commands);
 
 }  // namespace worldy::ui

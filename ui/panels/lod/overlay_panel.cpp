@@ -85,7 +85,7 @@ void errorHistogram(const planet::Planet& planet) {
 
 }  // namespace
 
-void overlayPanel(const EditorView& view, ViewSettings& settings, Commands&) {
+void overlayPanel(const EditorView& view, ViewSettings& settings) {
     const SettingControls control(settings);
     colourControls(control, settings.overlay);
     drawnControls(control, settings.overlay);

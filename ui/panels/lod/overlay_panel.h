@@ -7,6 +7,6 @@
 namespace worldy::ui {
 
 // Fills the current window.
-void overlayPanel(const EditorView& view, ViewSettings& settings, Commands& commands);
+void overlayPanel(const EditorView& view, ViewSettings& settings);
 
 }  // namespace worldy::ui

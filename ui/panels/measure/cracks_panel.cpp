@@ -226,7 +226,7 @@ void gapTable(const EditorView& view, Commands& commands) {
 
 }  // namespace
 
-void cracksPanel(const EditorView& view, CracksPanelState&, ViewSettings& settings, Commands& commands) {
+void cracksPanel(const EditorView& view, ViewSettings& settings, Commands& commands) {
     if (section("Cracks")) measureControls(view, settings, commands);
     if (!view.planet) return emptyState("No planet is open. Open one to measure cracks.");
     if (!view.instruments.cracks.measured)

@@ -6,8 +6,6 @@
 
 namespace worldy::ui {
 
-struct CracksPanelState {};
-
-void cracksPanel(const EditorView& view, CracksPanelState& state, ViewSettings& settings, Commands& commands);
+void cracksPanel(const EditorView& view, ViewSettings& settings, Commands& commands);
 
 }  // namespace worldy::ui

@@ -294,7 +294,7 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
 
 }  // namespace
 
-void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings&, Commands& commands) {
+void popsPanel(const EditorView& view, PopsPanelState& state, Commands& commands) {
     if (!view.planet || !view.instruments.pops.meter)
         return emptyState("No planet is open. Open one to measure jumps at level changes.");
     refresh(view, state);

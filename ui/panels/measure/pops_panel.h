@@ -26,6 +26,6 @@ struct PopsPanelState {
     } sample;
 };
 
-void popsPanel(const EditorView& view, PopsPanelState& state, ViewSettings& settings, Commands& commands);
+void popsPanel(const EditorView& view, PopsPanelState& state, Commands& commands);
 
 }  // namespace worldy::ui

@@ -92,7 +92,7 @@ void probed(const char* id, const ProbedVertex& vertex, const EditorView& view, 
 
 }  // namespace
 
-void probePanel(const EditorView& view, ProbePanelState&, ViewSettings&, Commands& commands) {
+void probePanel(const EditorView& view, Commands& commands) {
     if (!view.planet) return emptyState("No planet is open. Open one to measure float and depth precision.");
     const ProbeView& probe = view.instruments.probe;
     if (section(probe.overGround || !probe.vertex ? "Under the pointer###pointer"

@@ -6,8 +6,6 @@
 
 namespace worldy::ui {
 
-struct ProbePanelState {};
-
-void probePanel(const EditorView& view, ProbePanelState& state, ViewSettings& settings, Commands& commands);
+void probePanel(const EditorView& view, Commands& commands);
 
 }  // namespace worldy::ui

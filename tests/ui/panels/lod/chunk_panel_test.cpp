@@ -30,7 +30,7 @@ protected:
         commands_.clear();
         EditorView view = fixture_.view();
         view.focus.selected = selected_;
-        window_.frame([&] { chunkPanel(view, state_, settings_, commands_); });
+        window_.frame([&] { chunkPanel(view, state_, commands_); });
     }
 
     void click(const std::string& item) {
@@ -58,7 +58,6 @@ protected:
     PanelWindow window_{{400, 1400}};
     worldy::test::EditorFixture fixture_{planet::openFake()};
     ChunkPanelState state_;
-    ViewSettings settings_;
     Commands commands_;
     std::optional<planet::ChunkId> selected_;
 };
