@@ -41,7 +41,7 @@ window() { printf 'window.width_px = %s\nwindow.height_px = %s\n' "$1" "$2"; }
 slow_disk() { printf 'bad_disk.latency_ms = %s\nbad_disk.failure_rate = %s\n' "$1" "$2"; }
 # The keys of all panels.
 panels=$(sed -n 's/^ *{PanelId::[^"]*"[^"]*", "\([^"]*\)".*/\1/p' "$here/app/settings/panel_list.h")
-# A panel alone in a dock of this width.
+# Shows one panel alone in a dock of the given width.
 only() {
     echo "window.left_width = $2"
     for panel in $panels; do

@@ -19,7 +19,7 @@ void advanceEstimate(BakeEstimator& estimator) {
         const std::optional<planet::Result<planet::BakeEstimate>> result = estimator.job->takeResult();
         if (!result) return;
         estimator.job.reset();
-        // A newer question makes this answer worthless.
+        // The result is discarded if a newer request waits.
         if (!estimator.next) {
             estimator.result = *result ? std::optional(**result) : std::nullopt;
             estimator.problem = *result ? std::string() : result->error().message;

@@ -1,4 +1,4 @@
-// The Bake panel's commands. The session bakes; estimates and previews are kept here. Main thread.
+// Executes the Bake panel's commands, and owns estimates and previews. The session owns the bake. Main thread.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@
 
 namespace worldy {
 
-// An estimate of the bake that was last asked about.
+// The estimate of the last requested bake.
 struct BakeEstimator {
     std::unique_ptr<EstimateJob> job;
-    std::optional<BakeRequest> next;  // asked about while another one ran
+    std::optional<BakeRequest> next;  // requested while another one was running
     std::optional<planet::BakeEstimate> result;
     std::string problem;
 };
-// Replaces what was asked before.
+// Replaces the previous request.
 void requestEstimate(BakeEstimator& estimator, const BakeRequest& request);
-// Once a frame.
+// Call once per frame.
 void advanceEstimate(BakeEstimator& estimator);
 
 struct BakeController {
@@ -37,7 +37,7 @@ struct BakeController {
 void execute(BakeController& controller, const ui::BakeCommand& command, Session& session,
              ui::BakePanelState& panel, const Log& log);
 
-// Holds for the frame.
+// Valid for the frame.
 ui::BakeView bakeViewOf(const BakeController& controller, const Session& session);
 
 }  // namespace worldy

@@ -118,7 +118,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
 // Call when another planet is shown: the camera stays if possible, measurements are discarded.
 void Editor::meetPlanet(Scene& scene) {
     if (scene.identity == frames_.lastScene) return;
-    // Both are about the planet that they began with, which may be gone.
+    // Recording and replay refer to the previous planet, which may no longer exist.
     stopRecording(recording_, nullptr, notices_.log);
     endReplay(recording_, nullptr, replayContext());
     scene.planet->tools().keepMoves(false);

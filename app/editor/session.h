@@ -102,12 +102,12 @@ planet::Result<OpenPlanet> openBeside(const Session& session, const DataSet& dat
 // Swaps other and the shown planet. Requires a shown planet.
 void exchangeShown(Session& session, OpenPlanet& other, const Log& log);
 
-// The planet that is to be drawn, the previous bake's where that is shown: null while there is nothing.
+// Returns the planet to draw, which may be that of the previous bake; null if there is none.
 const OpenPlanet* shownPlanet(const Session& session);
 Scene* shownScene(Session& session);
 const Scene* shownScene(const Session& session);
 
-// Without what BakeController keeps.
+// Leaves out the data of BakeController.
 ui::BakeView bakeViewOf(const Session& session);
 ui::DataView dataViewOf(const Session& session, std::span<const std::filesystem::path> recent);
 

@@ -9,39 +9,39 @@
 
 namespace worldy::ui {
 
-// Bytes and numbers; 0 where the system does not tell.
+// Bytes and counts; 0 if the system does not report them.
 struct ProcessAllocations {
     std::size_t residentBytes = 0;
     std::size_t heapBytes = 0;  // allocated and not yet freed
     std::size_t openFiles = 0;  // including sockets and pipes
     std::size_t threads = 0;
-    std::size_t jobs = 0;  // bakes and measurements under way in the background
+    std::size_t jobs = 0;  // background bakes and measurements
 };
 
-// Of all planets that are open.
+// Sums over all open planets.
 struct PlanetAllocations {
     std::size_t count = 0;
-    std::size_t chunks = 0;  // resident, as the tiles
+    std::size_t chunks = 0;  // resident, as are the tiles below
     std::size_t chunkSlots = 0;
     std::size_t colourTiles = 0;
     std::size_t normalTiles = 0;
     std::size_t requests = 0;  // page-ins queued or being read
 };
 
-// What the program keeps for the user to look back at.
+// Data that is kept so that the user can look back.
 struct HistoryAllocations {
-    std::size_t rememberedEnds = 0;  // of requests
+    std::size_t rememberedEnds = 0;  // requests in the paging histories
     std::size_t logLines = 0;
     std::size_t frameSamples = 0;
-    std::size_t recordedBytes = 0;  // of a flight that is being recorded
+    std::size_t recordedBytes = 0;  // of a flight being recorded
 };
 
 struct Allocations {
-    double atS = 0;  // since the program began
+    double atS = 0;  // seconds since the program began
     ProcessAllocations process{};
-    planet::gl::GpuMemory gpu{};         // of all planets that are open
-    std::size_t targetBytes = 0;         // of the pictures drawn into
-    planet::gl::ObjectCounts objects{};  // of the window's context, the panels' own counted in
+    planet::gl::GpuMemory gpu{};         // of all open planets
+    std::size_t targetBytes = 0;         // of render targets
+    planet::gl::ObjectCounts objects{};  // of the window's context, including the panels' own
     PlanetAllocations planets{};
     HistoryAllocations history{};
 };
