@@ -154,7 +154,7 @@ void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upl
     ++run.frame;
     changed = false;
     run.nowS += elapsedS;
-    run.sinceAnewS += elapsedS;
+    run.sinceResetS += elapsedS;
     lastStep.nowS = run.nowS;
     lastStep.elapsedS = elapsedS;
     views.resize(inputs.size());
@@ -286,7 +286,7 @@ std::vector<TileChange> Planet::takeTileChanges(BlockKind kind) {
     return std::exchange(state_->tilesOf(kind).changes, {});
 }
 
-void Planet::beginTilesAnew(BlockKind kind) {
+void Planet::reloadTiles(BlockKind kind) {
     TilePaging& tiles = state_->tilesOf(kind);
     if (!tiles.isOn()) return;
     state_->resizeTiles(tiles, tiles.capacity());

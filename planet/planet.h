@@ -88,7 +88,7 @@ public:
     // which they are drawn.
     std::vector<TileChange> takeTileChanges(BlockKind kind);
     // Drops all tiles of colours or normals except the roots, and loads them again, for a new renderer.
-    void beginTilesAnew(BlockKind kind);
+    void reloadTiles(BlockKind kind);
 
     // Returns the first 1000 problems since the last call, for a log: blocks that have failed for good,
     // colours or normals without room, roots that could not be read.

@@ -178,7 +178,7 @@ std::optional<double> PlanetState::untilRetryS() const {
         const std::optional<double> atS = kind->failures().nextRetryS();
         if (atS) first = std::min(first.value_or(*atS), *atS);
     }
-    if (first) *first = std::max(*first - run.sinceAnewS, 0.0);
+    if (first) *first = std::max(*first - run.sinceResetS, 0.0);
     return first;
 }
 
@@ -195,7 +195,7 @@ void PlanetState::resizeTiles(TilePaging& tiles, std::uint32_t capacity) {
         noteTaken(queue);
         if (tiles.isOn()) tiles.discardRequests(queue, run);
     });
-    tiles.begin(capacity, run.sinceAnewS);
+    tiles.begin(capacity, run.sinceResetS);
     selectAgain();
 }
 
@@ -229,16 +229,16 @@ void PlanetState::dropAll() {
 }
 
 // Withdraws the queued requests first, so that no loader takes them, and then discards the reads in progress.
-void PlanetState::startAnew() {
+void PlanetState::reset() {
     pager->withQueue([&](PagingQueue& queue) {
         for (const PagingRequest& request : queue.cancelNotRenewed(PagingType::PageIn, noFrame))
             of(request.kind).withdraw(request, run);
         queue.cancelNotRenewed(PagingType::PageOut, noFrame);
     });
-    for (const PagingRequest& request : pager->giveUp()) run.log.discardedRead(request, run.nowS);
+    for (const PagingRequest& request : pager->abandonReads()) run.log.discardedRead(request, run.nowS);
     pager->forgetAttempts();
-    run.sinceAnewS = 0;
-    for (BlockPaging* kind : kinds()) kind->startAnew(run);
+    run.sinceResetS = 0;
+    for (BlockPaging* kind : kinds()) kind->reset(run);
     views.assign(1, {});
     run.frame = 0;
     changed = true;

@@ -71,7 +71,7 @@ struct PlanetState {
     void beginNormals(std::uint32_t capacity, std::size_t heightBytes, const std::string& problem);
     void finishNormalRoots();
     void dropAll();
-    void startAnew();
+    void reset();
     void requeue(std::vector<PagingRequest> givenUp);
 
 private:

@@ -34,7 +34,7 @@ const std::deque<PagingEvent>& PlanetInspector::pagingHistory() const {
 std::vector<FailedBlock> PlanetInspector::failedBlocks() const {
     std::vector<FailedBlock> all;
     for (const BlockPaging* kind : state_.kinds())
-        kind->failures().appendTo(all, kind->kind(), state_.run.sinceAnewS);
+        kind->failures().appendTo(all, kind->kind(), state_.run.sinceResetS);
     return all;
 }
 
@@ -66,9 +66,9 @@ void PlanetTools::dropAll() {
     state_.count();
 }
 
-void PlanetTools::startAnew() {
+void PlanetTools::reset() {
     state_.lastStepAt = PlanetState::Clock::now();
-    state_.startAnew();
+    state_.reset();
     state_.count();
 }
 
@@ -93,7 +93,7 @@ PagingMoves PlanetTools::takeMoves() {
 bool PlanetTools::follow(const PagingMoves& moves) {
     assert(state_.settings.time == PagingTime::Recorded);
     Pager& pager = *state_.pager;
-    if (moves.gaveUp) state_.requeue(pager.giveUp());
+    if (moves.gaveUp) state_.requeue(pager.abandonReads());
     bool whole = true;
     for (const BlockId& block : moves.taken) whole &= pager.take(block);
     for (const PagingMoves::Arrival& arrival : moves.arrived) {

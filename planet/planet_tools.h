@@ -55,7 +55,7 @@ public:
     // all blocks except the roots, all requests and reads, the selections and their memory, and resets
     // simulated time to 0. Totals, history and lastStep().nowS continue. Nothing is selected until the next
     // step.
-    void startAnew();
+    void reset();
     // Forgets the selections, on which hysteresis and fades depend, so that the next step selects as the
     // first one does. Resident blocks and requests stay. Nothing is selected until the next step.
     void forgetSelections();

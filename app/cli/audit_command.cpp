@@ -61,7 +61,7 @@ AuditedView settleAt(Planet& planet, const planet::CameraPose& pose, const plane
     const double radiusM = planet.tree().shape.radiusM;
     Camera camera = cameraFromPose(pose, radiusM);
     AuditedView audited;
-    planet.tools().startAnew();
+    planet.tools().reset();
     for (int attempt = 0; attempt < 4; ++attempt) {
         view = viewOf(camera, glm::radians(options.view.camera.fovDeg), options.size.widthPx,
                       options.size.heightPx);

@@ -114,7 +114,7 @@ Result<void> measureView(Offscreen& offscreen, const planet::CameraPose& pose, d
     MeasuredView view;
     view.timeS = timeS;
     // Neither hysteresis nor resident chunks may carry over from the previous view.
-    offscreen.scene.planet->tools().startAnew();
+    offscreen.scene.planet->tools().reset();
     view.at = settleAt(offscreen, pose, options.view);
     const Result<CrackMeasurement> measured = measureCracks(offscreen.scene, view.at.view, options.view);
     if (!measured) return tl::unexpected(measured.error());
@@ -149,7 +149,7 @@ Result<int> leaksWith(Offscreen& offscreen, const CracksOptions& options, const 
     settings.lod.skirtFactor = all.smallest.factor;
     int leaking = 0;
     for (const MeasuredView& view : all.views) {
-        offscreen.scene.planet->tools().startAnew();
+        offscreen.scene.planet->tools().reset();
         const SettledView at = settleAt(offscreen, view.at.pose, settings);
         const Result<CrackMeasurement> measured = measureCracks(offscreen.scene, at.view, settings);
         if (!measured) return tl::unexpected(measured.error());

@@ -44,7 +44,7 @@ std::vector<Counter> countersOf(const CounterSources& sources, const FrameStats&
     addTotals("heights", paging[planet::BlockKind::Heights]);
     addTotals("colours", paging[planet::BlockKind::Colours]);
     addTotals("normals", paging[planet::BlockKind::Normals]);
-    add("failed_for_good", paging.failedForGood());
+    add("failed_for_good", paging.failedPermanently());
     add("awaiting_retry", paging.awaitingRetry());
     add("colour_tiles", paging[planet::BlockKind::Colours].resident);
     add("selected", sources.focus.selected ? planet::toString(*sources.focus.selected) : std::string("none"));

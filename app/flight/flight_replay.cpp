@@ -96,7 +96,7 @@ planet::PagingSettings FlightReplay::pagingAtStart() const {
 }
 
 void FlightReplay::rewind(planet::Planet& planet) {
-    planet.tools().startAnew();
+    planet.tools().reset();
     planet.tools().keepMoves(true);
     settings_ = settingsBefore(*record_);
     next_ = 0;

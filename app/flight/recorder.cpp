@@ -54,7 +54,7 @@ Recorder::Recorder(planet::Planet& planet, std::string name)
     std::error_code status;
     const std::filesystem::path whole = std::filesystem::absolute(data_.chunkFile, status);
     if (!status) data_.chunkFile = whole.string();
-    planet.tools().startAnew();
+    planet.tools().reset();
     planet.tools().keepMoves(true);
 }
 

@@ -47,7 +47,7 @@ nlohmann::ordered_json statsJson(const FrameStats& stats) {
             {"loaded_blocks", byKind(stats, [](const planet::BlockCounters& kind) { return kind.loaded; })},
             {"evicted_blocks", byKind(stats, [](const planet::BlockCounters& kind) { return kind.evicted; })},
             {"failed_reads", byKind(stats, [](const planet::BlockCounters& kind) { return kind.failed; })},
-            {"failed_blocks", stats.paging.failedForGood()},
+            {"failed_blocks", stats.paging.failedPermanently()},
             {"budget_waits", stats.paging[planet::BlockKind::Heights].budgetWaits},
             {"resident_chunks", stats.paging[planet::BlockKind::Heights].resident},
             {"resident_bytes_cpu", stats.paging.residentBytesCpu},

@@ -37,7 +37,7 @@ Picture readPicture(const Offscreen& offscreen);
 
 // The view from a pose after all its blocks are loaded. Hysteresis and fades are reset, so its selection does
 // not depend on earlier views. Resident chunks stay, so with a small budget the height of the ground may
-// still depend on earlier views; PlanetTools::startAnew() excludes that too. A camera below the ground is
+// still depend on earlier views; PlanetTools::reset() excludes that too. A camera below the ground is
 // lifted above it. goOn is called several times per second; if it returns false, the view stays unsettled.
 struct SettledView {
     planet::View view;

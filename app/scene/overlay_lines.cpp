@@ -68,9 +68,10 @@ void appendFocus(const planet::ChunkTree& tree, const planet::ChunkId& id, const
 
 void appendFailed(const planet::ChunkTree& tree, const planet::ChunkNode& node, const planet::View& view,
                   planet::Lines& lines) {
-    const bool forGood = node.childrenState == planet::ChildrenState::Failed;
-    if (!forGood && node.childrenState != planet::ChildrenState::AwaitingRetry) return;
-    planet::appendOutline(tree, node, liftM(node, view), forGood ? failedColour : awaitingRetryColour, lines);
+    const bool permanent = node.childrenState == planet::ChildrenState::Failed;
+    if (!permanent && node.childrenState != planet::ChildrenState::AwaitingRetry) return;
+    planet::appendOutline(tree, node, liftM(node, view), permanent ? failedColour : awaitingRetryColour,
+                          lines);
 }
 
 }  // namespace

@@ -25,13 +25,13 @@ bool BlockFailures::failed(const ChunkId& parent, Error error, double nowS, cons
     known.order = nextOrder_++;
     known.retryAtS.reset();
     const int attempts = static_cast<int>(known.attempts);
-    const bool forGood = error.kind == ErrorKind::BadInput || attempts > rules.retries;
-    if (forGood)
+    const bool permanent = error.kind == ErrorKind::BadInput || attempts > rules.retries;
+    if (permanent)
         ++forGood_;
     else
         known.retryAtS = nowS + std::ldexp(rules.delayS, attempts - 1);
     if (blocks_.size() > mostKnown) forgetOldest();
-    return forGood;
+    return permanent;
 }
 
 void BlockFailures::forgetOldest() {
@@ -52,7 +52,7 @@ void BlockFailures::clear() {
     *this = {};
 }
 
-bool BlockFailures::isForGood(const ChunkId& parent) const {
+bool BlockFailures::isPermanent(const ChunkId& parent) const {
     const auto found = blocks_.find(parent);
     return found != blocks_.end() && !found->second.retryAtS;
 }

@@ -46,7 +46,7 @@ public:
     void forget(const ChunkId& parent);
     void clear();
 
-    bool isForGood(const ChunkId& parent) const;
+    bool isPermanent(const ChunkId& parent) const;
     // Returns the error message of the last failure, with the number of attempts if there were several.
     std::string messageOf(const ChunkId& parent) const;
     // Returns the state of a block whose parent has just become resident.
@@ -60,7 +60,7 @@ public:
     std::optional<double> nextRetryS() const { return nextRetryS_; }
 
     std::size_t count() const { return blocks_.size(); }
-    std::size_t countForGood() const { return forGood_; }
+    std::size_t countPermanent() const { return forGood_; }
     // Appends the failed blocks in the order of their failures.
     void appendTo(std::vector<FailedBlock>& out, BlockKind kind, double nowS) const;
 

@@ -22,13 +22,13 @@ void BlockPaging::request(PagingQueue& queue, const MergedRequests& requests, Pa
     failures_.beginStep();
     beginRequests();
     for (const MergedRequest& one : requests.wanted) {
-        if (!failures_.mayAsk(one.parentId, stateOf(one.parent), run.sinceAnewS)) continue;
+        if (!failures_.mayAsk(one.parentId, stateOf(one.parent), run.sinceResetS)) continue;
         if (!reserveRoom(queue, one, requests.splits, run)) {
             ++counters_.budgetWaits;
             continue;
         }
         changeState(stateOf(one.parent), ChildrenState::Requested);
-        if (failures_.isForGood(one.parentId)) {
+        if (failures_.isPermanent(one.parentId)) {
             --reserved_;
             addStandIn(one.parent, run);
             continue;
@@ -87,12 +87,13 @@ void BlockPaging::finish(FinishedLoad&& load, PagingRun& run, const UploadChunk&
 void BlockPaging::fail(NodeIndex parent, const FinishedLoad& load, Error error, PagingRun& run) {
     ++counters_.failed;
     const bool badData = error.kind == ErrorKind::BadInput;
-    const bool forGood = failures_.failed(load.request.parent, std::move(error), run.sinceAnewS, run.retry);
-    if (forGood && hasStandIn())
+    const bool permanent =
+        failures_.failed(load.request.parent, std::move(error), run.sinceResetS, run.retry);
+    if (permanent && hasStandIn())
         addStandIn(parent, run);
     else
-        changeState(stateOf(parent), forGood ? ChildrenState::Failed : ChildrenState::AwaitingRetry);
-    if (forGood) run.log.report(failures_.messageOf(load.request.parent));
+        changeState(stateOf(parent), permanent ? ChildrenState::Failed : ChildrenState::AwaitingRetry);
+    if (permanent) run.log.report(failures_.messageOf(load.request.parent));
     run.log.arrived(load, PagingOutcome::Failed, run.nowS, badData);
 }
 
@@ -110,10 +111,10 @@ void BlockPaging::discardReads(const PagingRun& run) {
     reserved_ = 0;
 }
 
-void BlockPaging::startAnew(PagingRun& run) {
+void BlockPaging::reset(PagingRun& run) {
     failures_.clear();
     reserved_ = 0;
-    if (isOn()) reset(run);
+    if (isOn()) resetBlocks(run);
     oldestTicketKept_ = run.nextTicket;
     counters_.budgetWaits = 0;
 }
@@ -137,8 +138,8 @@ void BlockPaging::retryOne(const ChunkId& parent) {
 }
 
 void BlockPaging::count() {
-    counters_.failedForGood = static_cast<std::uint32_t>(failures_.countForGood());
-    counters_.awaitingRetry = static_cast<std::uint32_t>(failures_.count() - failures_.countForGood());
+    counters_.failedPermanently = static_cast<std::uint32_t>(failures_.countPermanent());
+    counters_.awaitingRetry = static_cast<std::uint32_t>(failures_.count() - failures_.countPermanent());
     counters_.resident = residentCount();
     counters_.capacity = capacity_;
 }
@@ -158,9 +159,9 @@ std::uint32_t BlockPaging::takeSlots() {
     return first;
 }
 
-void BlockPaging::recallFailure(const ChunkId& id, ChildrenState& state, double sinceAnewS) const {
+void BlockPaging::recallFailure(const ChunkId& id, ChildrenState& state, double sinceResetS) const {
     if (state != ChildrenState::Absent) return;
-    const ChildrenState known = failures_.stateAt(id, sinceAnewS);
+    const ChildrenState known = failures_.stateAt(id, sinceResetS);
     // Blocks with a stand-in are requested again, so that the stand-in appears once there is room.
     if (known == ChildrenState::AwaitingRetry || (known == ChildrenState::Failed && !hasStandIn()))
         changeState(state, known);

@@ -40,7 +40,7 @@ struct MergedRequests {
 struct PagingRun {
     std::uint64_t frame = 0;       // of the current step; the first is 1
     double nowS = 0;               // seconds since the planet was opened, as of the current step
-    double sinceAnewS = 0;         // seconds since PlanetTools::startAnew(), the time of retries
+    double sinceResetS = 0;        // seconds since PlanetTools::reset(), the time of retries
     std::uint64_t nextTicket = 1;  // of the next page-in
     RetryRules retry{};
     PagingLog log{};
@@ -77,7 +77,7 @@ public:
     virtual void dropAll(PagingQueue& queue, PagingRun& run) = 0;
     // Resets to the state after opening and forgets failures. No request may be queued, and no read in
     // progress.
-    void startAnew(PagingRun& run);
+    void reset(PagingRun& run);
 
     // Allow failed blocks to be requested again: all, or one.
     void retryAll();
@@ -97,7 +97,7 @@ protected:
     // Discards the requests that are being read or have finished.
     void discardReads(const PagingRun& run);
     // Sets the children's state of a node that has just become resident from their known failures.
-    void recallFailure(const ChunkId& id, ChildrenState& state, double sinceAnewS) const;
+    void recallFailure(const ChunkId& id, ChildrenState& state, double sinceResetS) const;
     void forgetRetryTime() { failures_.beginStep(); }
     void noteEviction(const PagingRequest& request, bool wasLoaded, PagingRun& run);
 
@@ -120,7 +120,7 @@ private:
     virtual bool hasStandIn() const { return false; }
     virtual void addStandIn(NodeIndex, PagingRun&) {}
     virtual void dropStandIn(NodeIndex) {}
-    virtual void reset(PagingRun& run) = 0;  // this kind's part of startAnew()
+    virtual void resetBlocks(PagingRun& run) = 0;  // this kind's part of reset()
 
     bool reserveRoom(PagingQueue& queue, const MergedRequest& wanted,
                      const std::vector<MergedRequest>& splits, PagingRun& run);

@@ -67,7 +67,7 @@ void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& 
         node.lastUsedFrame = run.frame - 1;
         node.loadedAtS = run.nowS;
         node.loadOrder = blocksLoaded_;
-        recallFailure(node.id, node.childrenState, run.sinceAnewS);
+        recallFailure(node.id, node.childrenState, run.sinceResetS);
     }
     watched_.push_back(first);
 }
@@ -244,7 +244,7 @@ void ChunkPaging::dropAll(PagingQueue& queue, PagingRun& run) {
     evictLeastUsed(queue, 0, noFrame, run);
 }
 
-void ChunkPaging::reset(PagingRun&) {
+void ChunkPaging::resetBlocks(PagingRun&) {
     counters().evicted += (tree.residentChunks - faceCount) / quadrantCount;
     tree.nodes.resize(faceCount);
     tree.freeGroups.clear();

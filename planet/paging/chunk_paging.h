@@ -61,7 +61,7 @@ private:
     Result<void> check(NodeIndex parent, const LoadedBlock& block) const override;
     void addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
                      const UploadChunk& upload) override;
-    void reset(PagingRun& run) override;
+    void resetBlocks(PagingRun& run) override;
 
     void use(PagingQueue& queue, NodeIndex index, PagingRun& run);
     void evict(PagingQueue& queue, NodeIndex parent, PagingRun& run);

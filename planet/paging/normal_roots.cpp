@@ -21,7 +21,7 @@ bool NormalRoots::follow(TilePaging& normals, PagingRun& run) {
     }
     while (next_ < faceCount && !normals.roots[next_].texels.empty()) ++next_;
     if (next_ == faceCount) {
-        normals.begin(capacity_, run.sinceAnewS);
+        normals.begin(capacity_, run.sinceResetS);
         return true;
     }
     coming_ = std::async(std::launch::async, [deriver = deriver_.get(), id = normals.roots[next_++].id] {
@@ -33,7 +33,7 @@ bool NormalRoots::follow(TilePaging& normals, PagingRun& run) {
 void NormalRoots::finish(TilePaging& normals, PagingRun& run) {
     if (coming_.valid()) take(normals, coming_.get(), run.log);
     if (capacity_ > 0) deriveMissing(normals, run.log);
-    normals.begin(capacity_, run.sinceAnewS);
+    normals.begin(capacity_, run.sinceResetS);
 }
 
 bool NormalRoots::deriveMissing(TilePaging& normals, PagingLog& log) {

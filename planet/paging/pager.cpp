@@ -134,7 +134,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     PagingRequest request = takeNext();
     const Reading reading{request, Clock::now()};
     loaders_[index].reading = reading;
-    const bool fails = sitOutBadDisk(reading, stop, lock);
+    const bool fails = waitForInjectedDelay(reading, stop, lock);
     Result<LoadedBlock> block;
     if (fails) {
         block = failedOnPurpose(request.block(), badDisk_.seed);
@@ -153,7 +153,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
 
 // Waits as long as the injected fault says, even if the settings change meanwhile. Returns true if the read
 // fails.
-bool Pager::sitOutBadDisk(const Reading& reading, const std::stop_token& stop, Lock& lock) {
+bool Pager::waitForInjectedDelay(const Reading& reading, const std::stop_token& stop, Lock& lock) {
     const std::uint64_t epoch = epoch_;
     while (isTrouble(badDisk_) && !stop.stop_requested() && epoch == epoch_) {
         const DiskFault fault = nextFault(reading.request);
@@ -179,7 +179,7 @@ std::vector<PagingRequest> Pager::setTime(PagingTime time) {
     return givenUp;
 }
 
-std::vector<PagingRequest> Pager::giveUp() {
+std::vector<PagingRequest> Pager::abandonReads() {
     const Wake wakeWaiting{badDiskChanged_};
     const Wake wake{workArrived_};
     const std::lock_guard lock(mutex_);

@@ -130,7 +130,7 @@ public:
     // reads that have not been taken: discards their results and returns their requests.
     std::vector<PagingRequest> setTime(PagingTime time);
     // Abandons the same reads without changing the time.
-    std::vector<PagingRequest> giveUp();
+    std::vector<PagingRequest> abandonReads();
     PagingTime time() const;
     // Advances simulated or recorded time by seconds, >= 0.
     void advance(double seconds);
@@ -188,7 +188,7 @@ private:
 
     void runLoader(std::size_t index, const std::stop_token& stop);
     void serve(std::size_t index, const std::stop_token& stop, Lock& lock);
-    bool sitOutBadDisk(const Reading& reading, const std::stop_token& stop, Lock& lock);
+    bool waitForInjectedDelay(const Reading& reading, const std::stop_token& stop, Lock& lock);
     bool mayTake() const;
     PagingRequest takeNext();
     void startVirtualReads();

@@ -92,11 +92,11 @@ struct BlockCounters {
     std::uint64_t bytesRead = 0;  // from the file; for normals, of the heights that they are derived from
 
     // Now.
-    std::uint32_t budgetWaits = 0;    // blocks wanted in the last step that the budget has no room for
-    std::uint32_t failedForGood = 0;  // blocks that are not requested again until retryFailed()
-    std::uint32_t awaitingRetry = 0;  // other blocks whose last read failed
-    std::size_t resident = 0;         // chunks or tiles, including roots
-    std::uint32_t capacity = 0;       // slots for them; 0 if the kind is off or has no room
+    std::uint32_t budgetWaits = 0;        // blocks wanted in the last step that the budget has no room for
+    std::uint32_t failedPermanently = 0;  // blocks that are not requested again until retryFailed()
+    std::uint32_t awaitingRetry = 0;      // other blocks whose last read failed
+    std::size_t resident = 0;             // chunks or tiles, including roots
+    std::uint32_t capacity = 0;           // slots for them; 0 if the kind is off or has no room
 };
 
 // Counters over all kinds of blocks, since the planet was opened unless noted, and those of each kind.
@@ -118,7 +118,7 @@ struct PagingCounters {
 
     // Sums over the kinds.
     std::uint64_t bytesRead() const { return sum(&BlockCounters::bytesRead); }
-    std::uint32_t failedForGood() const { return sum(&BlockCounters::failedForGood); }
+    std::uint32_t failedPermanently() const { return sum(&BlockCounters::failedPermanently); }
     std::uint32_t awaitingRetry() const { return sum(&BlockCounters::awaitingRetry); }
 
 private:
@@ -139,7 +139,7 @@ inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
 
 // An update for a pool of tiles after a step. Updates are applied in order.
 struct TileChange {
-    bool beginsAnew = false;          // all slots become empty, as after opening
+    bool resets = false;              // all slots become empty, as after opening
     std::optional<ChunkId> gone{};    // the tiles under this one are no longer resident
     std::uint32_t firstSlot = 0;      // of the arrived tiles
     std::vector<TileData> arrived{};  // a root alone, or four siblings in consecutive slots

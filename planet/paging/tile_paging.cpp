@@ -11,7 +11,7 @@
 
 namespace planet {
 
-void TilePaging::begin(std::uint32_t capacity, double sinceAnewS) {
+void TilePaging::begin(std::uint32_t capacity, double sinceResetS) {
     assert(capacity == 0 || (capacity >= faceCount && (capacity - faceCount) % quadrantCount == 0));
     assert(reserved() == 0);
     for (const TileNode& node : tree.nodes)
@@ -22,8 +22,8 @@ void TilePaging::begin(std::uint32_t capacity, double sinceAnewS) {
     forgetRetryTime();
     changes.clear();
     if (capacity == 0) return;
-    changes.push_back({.beginsAnew = true});
-    for (TileNode& root : tree.nodes) recallFailure(root.id, root.childrenState, sinceAnewS);
+    changes.push_back({.resets = true});
+    for (TileNode& root : tree.nodes) recallFailure(root.id, root.childrenState, sinceResetS);
     for (std::uint32_t face = 0; face < faceCount; ++face) {
         if (!roots[face].texels.empty()) changes.push_back({.firstSlot = face, .arrived = {roots[face]}});
     }
@@ -40,7 +40,7 @@ void TilePaging::describe(NodeIndex parent, PagingRequest& request) const {
 void TilePaging::dropAll(PagingQueue&, PagingRun& run) {
     if (!isOn()) return;
     discardReads(run);
-    begin(capacity(), run.sinceAnewS);
+    begin(capacity(), run.sinceResetS);
 }
 
 // Evicts the least recently used block, or one that is in use with a far lower priority.
@@ -114,7 +114,7 @@ void TilePaging::addTilesUnder(NodeIndex parent, TileBlock&& tiles, const Paging
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
         // The tile counts as used by the frame that requested it, in case this frame no longer uses it.
         tree.nodes[child].lastUsedFrame = run.frame - 1;
-        recallFailure(tree.nodes[child].id, tree.nodes[child].childrenState, run.sinceAnewS);
+        recallFailure(tree.nodes[child].id, tree.nodes[child].childrenState, run.sinceResetS);
     }
     TileChange change{.firstSlot = slot};
     for (TileData& tile : tiles) change.arrived.push_back(std::move(tile));

@@ -30,7 +30,7 @@ public:
 
     // Evicts every block and begins with only the roots, in a pool of `capacity` slots; 0 turns paging off.
     // Keeps failures. No request may be pending.
-    void begin(std::uint32_t capacity, double sinceAnewS);
+    void begin(std::uint32_t capacity, double sinceResetS);
 
     // Marks the tiles that a view used in a frame.
     void use(const std::vector<NodeIndex>& touched, std::uint64_t frame);
@@ -53,7 +53,7 @@ private:
     bool hasStandIn() const override { return checkers.has_value(); }
     void addStandIn(NodeIndex parent, PagingRun& run) override;
     void dropStandIn(NodeIndex parent) override;
-    void reset(PagingRun& run) override { begin(capacity(), run.sinceAnewS); }
+    void resetBlocks(PagingRun& run) override { begin(capacity(), run.sinceResetS); }
 
     bool evictUnused(PagingRun& run);
     bool evictLessWanted(const MergedRequest& wanted, const std::vector<MergedRequest>& splits,

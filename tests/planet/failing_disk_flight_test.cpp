@@ -178,9 +178,9 @@ TEST_F(FailingDiskFlight, ADiskThatDiesInFlightLeavesWhatIsThereAndAllComesOnceI
         const auto planet = open(disk.calls());
         ASSERT_TRUE(planet);
         fly(*planet);
-        EXPECT_GT(planet->paging().failedForGood(), 0u);
+        EXPECT_GT(planet->paging().failedPermanently(), 0u);
         const std::vector<std::string> problems = planet->takeProblems();
-        EXPECT_EQ(problems.size(), planet->paging().failedForGood());
+        EXPECT_EQ(problems.size(), planet->paging().failedPermanently());
         EXPECT_THAT(problems,
                     Each(HasSubstr("hills.chk: reading failed: Input/output error (tried 4 times)")));
         // Not asked for again, however long one flies.
@@ -243,7 +243,7 @@ TEST_F(FailingDiskFlight, AFileThatStaysCutIsDrawnAsFarAsItGoes) {
     const auto planet = open();
     std::filesystem::resize_file(path_, bakedHills().size() / 3);
     fly(*planet);
-    EXPECT_GT(planet->paging().failedForGood(), 0u);
+    EXPECT_GT(planet->paging().failedPermanently(), 0u);
     EXPECT_THAT(planet->takeProblems(), Each(HasSubstr("while open: it was truncated")));
     for (const FailedBlock& block : planet->inspect().failedBlocks()) EXPECT_EQ(block.attempts, 4u);
 }
@@ -262,7 +262,7 @@ TEST_F(FailingDiskFlight, AFileThatIsOverwrittenInPlaceIsReportedBlockByBlock) {
         const std::uint64_t before = planet->paging()[BlockKind::Heights].loaded;
         overwrite(path_, content);
         fly(*planet, 2);
-        EXPECT_GT(planet->paging().failedForGood(), 0u);
+        EXPECT_GT(planet->paging().failedPermanently(), 0u);
         EXPECT_GE(planet->paging()[BlockKind::Heights].loaded, before);
         for (const std::string& problem : planet->takeProblems())
             EXPECT_THAT(problem, AnyOf(HasSubstr("hills.chk"), HasSubstr("_pos/"), HasSubstr("_neg/")));
@@ -270,7 +270,7 @@ TEST_F(FailingDiskFlight, AFileThatIsOverwrittenInPlaceIsReportedBlockByBlock) {
         overwrite(path_, bakedHills());
         planet->tools().retryFailed();
         fly(*planet);
-        EXPECT_EQ(planet->paging().failedForGood(), 0u);
+        EXPECT_EQ(planet->paging().failedPermanently(), 0u);
     }
 }
 

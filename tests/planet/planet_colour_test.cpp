@@ -201,7 +201,7 @@ TEST(PlanetColours, ABlockThatCannotBeReadIsALoudCheckerAndTheRestGoesOn) {
     EXPECT_GT(planet->views()[0].colours.counters.deepestLevel, 2u);
 }
 
-TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
+TEST(PlanetColours, DroppedOrReloadedTheyComeAgain) {
     const auto planet = Planet::open(colouredSource(), roomForColourTiles(800)).value();
     ColourPool pool;
     const View view = viewAt(20, 20, 40'000, -70);
@@ -218,9 +218,9 @@ TEST(PlanetColours, DroppedOrBegunAnewTheyComeAgain) {
     };
     planet->tools().dropAll();
     comesAgain();
-    planet->beginTilesAnew(BlockKind::Colours);
+    planet->reloadTiles(BlockKind::Colours);
     comesAgain();
-    planet->tools().startAnew();
+    planet->tools().reset();
     comesAgain();
     PagingSettings fewer = planet->pagingSettings();
     fewer.maxColourTiles = 500;
@@ -258,7 +258,7 @@ TEST(PlanetColours, TotalsOfEachKindCountThatKindAlone) {
     ASSERT_TRUE(colouredSettled(*planet, viewAt(20, 20, 40'000, -70)));
     expectTotalsOfEachKindAddUp(*planet);
     ASSERT_GT(planet->paging()[BlockKind::Heights].loaded, planet->paging()[BlockKind::Heights].evicted);
-    planet->tools().startAnew();
+    planet->tools().reset();
     const ViewInput far = coloured(viewAt(20, 20, 1e8));
     planet->step({&far, 1}, noUpload, 0);
     EXPECT_EQ(planet->paging()[BlockKind::Heights].resident, faceCount);

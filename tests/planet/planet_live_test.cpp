@@ -27,7 +27,7 @@ struct RendererSlots {
             heights[slot].assign(steps.begin(), steps.end());
         };
     }
-    void makeAnew(const Planet& planet) {
+    void recreate(const Planet& planet) {
         heights.clear();
         planet.uploadAll(upload());
     }
@@ -93,7 +93,7 @@ TEST(Planet, AGrownBudgetTakesWhatHadNoRoom) {
     EXPECT_TRUE(planet->setPaging(budgetOf(1500)).value());
     EXPECT_EQ(planet->paging()[BlockKind::Heights].capacity, 1498u);
     EXPECT_FALSE(planet->settled());
-    pool.makeAnew(*planet);
+    pool.recreate(*planet);
     expectWhole(*planet, pool);
     expectSettlesAsFresh(*planet, viewAt(10, 20, 3e4, -90), settings, pool);
     EXPECT_EQ(planet->paging()[BlockKind::Heights].evicted, evicted);
@@ -112,7 +112,7 @@ TEST(Planet, AShrunkBudgetDropsWhatIsOutOfUseFirst) {
     EXPECT_EQ(planet->tree().residentChunks,
               planet->paging()[BlockKind::Heights].capacity);  // no more than had to go
     EXPECT_EQ(drawn(*planet), before);
-    pool.makeAnew(*planet);
+    pool.recreate(*planet);
     expectWhole(*planet, pool);
     const std::uint64_t loaded = planet->paging()[BlockKind::Heights].loaded;
     expectSettlesAsFresh(*planet, viewAt(10, 20), pixelSettings(), pool);
@@ -128,7 +128,7 @@ TEST(Planet, AShrunkBudgetDropsEvenWhatIsDrawn) {
     EXPECT_GT(planet->tree().residentChunks, 100u);
     EXPECT_TRUE(planet->setPaging(budgetOf(70)).value());
     EXPECT_EQ(planet->paging()[BlockKind::Heights].capacity, 70u);
-    pool.makeAnew(*planet);
+    pool.recreate(*planet);
     expectWhole(*planet, pool);
     EXPECT_FALSE(planet->selection().draw.empty());
     ASSERT_TRUE(planet->settle(viewAt(10, 20, 3e4, -90), settings, pool.upload(), timeoutS));
@@ -152,7 +152,7 @@ TEST(Planet, ABudgetMayShrinkWhileBlocksAreBeingRead) {
     const std::uint64_t failed = planet->paging()[BlockKind::Heights].failed;
     const std::uint64_t loaded = planet->paging()[BlockKind::Heights].loaded;
     EXPECT_TRUE(planet->setPaging(budgetOf(90, 3)).value());
-    pool.makeAnew(*planet);
+    pool.recreate(*planet);
     expectWhole(*planet, pool);
     const PagingCounters& paging = planet->paging();
     EXPECT_LE(planet->tree().residentChunks + 4 * (paging.queued + paging.loading), 90u);
@@ -179,7 +179,7 @@ TEST(Planet, ABudgetMayShrinkBelowWhatIsBeingRead) {
     planet->step(viewAt(10, 20), whole, pool.upload());
     gated.gate.waitForArrivals(arrived + 40);
     EXPECT_TRUE(planet->setPaging(budgetOf(70, 40)).value());
-    pool.makeAnew(*planet);
+    pool.recreate(*planet);
     expectWhole(*planet, pool);
     // Asked for again while the first readings of the same blocks are still on their way.
     for (int i = 0; i < 3; ++i) planet->step(viewAt(10, 20), whole, pool.upload());
@@ -205,13 +205,13 @@ TEST(Planet, ABudgetMayChangeInEveryStep) {
     settings.tauPx = 0.3;
     for (int i = 0; i < 800; ++i) {
         planet->step(viewAt(15, i * 0.7), settings, pool.upload());
-        if (planet->setPaging(budgetOf(70 + random() % 300, 1 + i % 5)).value()) pool.makeAnew(*planet);
+        if (planet->setPaging(budgetOf(70 + random() % 300, 1 + i % 5)).value()) pool.recreate(*planet);
         if (i % 20 == 0) expectWhole(*planet, pool);
         if (i % 50 == 25) planet->tools().dropAll();
     }
     EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
     planet->setPaging(budgetOf(400)).value();
-    pool.makeAnew(*planet);
+    pool.recreate(*planet);
     expectSettlesAsFresh(*planet, viewAt(15, 3), settings, pool);
 }
 

@@ -279,7 +279,7 @@ TEST(PlanetNormals, ABlockThatADiskFailsToReadIsTriedAgain) {
     made.broken = ChunkId{Face::PosX, 4, 9, 9};
     const auto broken = Planet::open(made.source(), settings).value();
     ASSERT_TRUE(broken->settle({&input, 1}, noUpload, 100));
-    EXPECT_GT(broken->paging().failedForGood(), 0u);
+    EXPECT_GT(broken->paging().failedPermanently(), 0u);
     EXPECT_EQ(broken->paging().awaitingRetry(), 0u);
     for (const FailedBlock& failed : broken->inspect().failedBlocks()) EXPECT_EQ(failed.attempts, 4u);
     NormalPool pool;
@@ -334,7 +334,7 @@ TEST(PlanetNormals, WithoutRoomOrSamplesForATileTheRestGoesOn) {
     EXPECT_THAT(refused.error().message, HasSubstr("normal share: 0.95 is out of range"));
 }
 
-TEST(PlanetNormals, DroppedOrBegunAnewTheyComeAgain) {
+TEST(PlanetNormals, DroppedOrReloadedTheyComeAgain) {
     const MadeChunks made = madeChunks();
     const auto planet = Planet::open(made.source(), roomForNormalTiles(126)).value();
     NormalPool pool;
@@ -353,9 +353,9 @@ TEST(PlanetNormals, DroppedOrBegunAnewTheyComeAgain) {
     };
     planet->tools().dropAll();
     comesAgain();
-    planet->beginTilesAnew(BlockKind::Normals);
+    planet->reloadTiles(BlockKind::Normals);
     comesAgain();
-    planet->tools().startAnew();
+    planet->tools().reset();
     comesAgain();
 }
 

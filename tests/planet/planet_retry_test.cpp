@@ -130,7 +130,7 @@ TEST(Retries, ComeAfterDelaysThatDoubleAndThenTheBlockHasFailedForGood) {
     EXPECT_DOUBLE_EQ(atS[2] - atS[1], 1.0 + stepS);
     EXPECT_DOUBLE_EQ(atS[3] - atS[2], 2.0 + stepS);
     EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 4u);
-    EXPECT_EQ(planet->paging().failedForGood(), 1u);
+    EXPECT_EQ(planet->paging().failedPermanently(), 1u);
     EXPECT_EQ(planet->paging().awaitingRetry(), 0u);
     EXPECT_EQ(planet->tree().nodes[0].childrenState, ChildrenState::Failed);
     ASSERT_THAT(planet->inspect().failedBlocks(), SizeIs(1));
@@ -202,7 +202,7 @@ TEST(Retries, AreAskedForByNameOrAllTogether) {
     EXPECT_EQ(flaky.reads(posXRoot), 3u);
 }
 
-// Such a block is not tried anew each time that its parent comes back.
+// Such a block is not retried each time its parent is loaded again.
 TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
     Flaky flaky;
     const ChunkId bad = childOf(posXRoot, 1);
@@ -232,9 +232,9 @@ TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
     EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
     ASSERT_TRUE(planet->settle(toIt, fineSettings(), noUpload, 100));
     EXPECT_EQ(flaky.reads(bad), 4u);
-    planet->tools().startAnew();
+    planet->tools().reset();
     EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
-    EXPECT_EQ(planet->paging().failedForGood(), 0u);
+    EXPECT_EQ(planet->paging().failedPermanently(), 0u);
     ASSERT_TRUE(planet->settle(toIt, fineSettings(), noUpload, 100));
     EXPECT_EQ(flaky.reads(bad), 6u);
 }
@@ -254,7 +254,7 @@ TEST(Retries, ADiskThatFailsEveryReadIsNotFlooded) {
     EXPECT_GT(asked.size(), 6u);
     for (const auto& [block, times] : asked) EXPECT_LE(times, 5) << toString(block);
     EXPECT_LE(planet->paging()[BlockKind::Heights].failed, 5 * asked.size());
-    EXPECT_EQ(planet->paging().failedForGood() + planet->paging().awaitingRetry(), asked.size());
+    EXPECT_EQ(planet->paging().failedPermanently() + planet->paging().awaitingRetry(), asked.size());
     EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
 }
 
@@ -286,8 +286,8 @@ TEST(Retries, ATileOfColourIsAChequerOnlyOnceItHasFailedForGood) {
     EXPECT_TRUE(planet->tiles(BlockKind::Colours).nodes[0].hasFailed);
     EXPECT_EQ(planet->paging()[BlockKind::Colours].failed, 2u);
     EXPECT_THAT(planet->takeProblems(), ElementsAre(HasSubstr("(colours): the disk is bad (tried 2 times)")));
-    // Begun anew it is known, and not read.
-    planet->beginTilesAnew(BlockKind::Colours);
+    // After reloadTiles() its failure is known, so it is not read.
+    planet->reloadTiles(BlockKind::Colours);
     fly(*planet, flaky, 2, true);
     EXPECT_TRUE(planet->tiles(BlockKind::Colours).nodes[0].hasFailed);
     EXPECT_EQ(flaky.reads(bad), 2u);
@@ -331,7 +331,7 @@ TEST(Retries, SettlingGivesUpAtItsTimeoutOrAtOnceWhilePaused) {
     ASSERT_TRUE(planet->setPaging(settings));
     EXPECT_TRUE(planet->settle(viewAt(10, 20), fineSettings(), noUpload, 100));
     EXPECT_EQ(flaky.reads(posXRoot), 2u);
-    EXPECT_EQ(planet->paging().failedForGood(), 1u);
+    EXPECT_EQ(planet->paging().failedPermanently(), 1u);
 }
 
 TEST(Retries, SettingsOutOfRangeAreRefused) {
@@ -354,7 +354,7 @@ TEST(Retries, OnlyTheLatestAreRemembered) {
     for (std::uint32_t i = 0; i < 5000; ++i)
         failures.failed(block(i), {i % 2 ? ErrorKind::Io : ErrorKind::BadInput, "bad"}, i, {});
     EXPECT_EQ(failures.count(), 4096u);
-    EXPECT_EQ(failures.countForGood(), 2048u);
+    EXPECT_EQ(failures.countPermanent(), 2048u);
     EXPECT_EQ(failures.stateAt(block(0), 5000), ChildrenState::Absent);
     EXPECT_EQ(failures.stateAt(block(4998), 5000), ChildrenState::Failed);
     EXPECT_EQ(failures.stateAt(block(4999), 4999), ChildrenState::AwaitingRetry);
@@ -364,19 +364,19 @@ TEST(Retries, OnlyTheLatestAreRemembered) {
 void expectConsistent(const Planet& planet) {
     std::map<BlockId, FailedBlock> known;
     for (FailedBlock& block : planet.inspect().failedBlocks()) known[block.block] = std::move(block);
-    std::size_t forGood = 0;
-    for (const auto& [id, block] : known) forGood += !block.retryInS;
-    EXPECT_EQ(planet.paging().failedForGood(), forGood);
-    EXPECT_EQ(planet.paging().awaitingRetry(), known.size() - forGood);
+    std::size_t permanent = 0;
+    for (const auto& [id, block] : known) permanent += !block.retryInS;
+    EXPECT_EQ(planet.paging().failedPermanently(), permanent);
+    EXPECT_EQ(planet.paging().awaitingRetry(), known.size() - permanent);
     const auto expectKnown = [&](const BlockId& id, ChildrenState state, bool checkers) {
         if (state == ChildrenState::None) return;  // a checker, or a leaf
         const auto found = known.find(id);
         const bool isKnown = found != known.end();
-        const bool isForGood = isKnown && !found->second.retryInS;
-        EXPECT_EQ(state == ChildrenState::Failed || checkers, isForGood && state != ChildrenState::Absent)
+        const bool isPermanent = isKnown && !found->second.retryInS;
+        EXPECT_EQ(state == ChildrenState::Failed || checkers, isPermanent && state != ChildrenState::Absent)
             << toString(id) << " in state " << static_cast<int>(state);
         if (state == ChildrenState::AwaitingRetry) {
-            EXPECT_TRUE(isKnown && !isForGood) << toString(id);
+            EXPECT_TRUE(isKnown && !isPermanent) << toString(id);
         }
         if (state == ChildrenState::Resident && !checkers) {
             EXPECT_FALSE(isKnown) << toString(id);
@@ -425,8 +425,8 @@ TEST(Retries, OverARandomFlightWithATightBudgetAllThatIsSaidOfBlocksFitsTogether
                 planet.tools().retryFailed(
                     planet.inspect().failedBlocks()[random() % planet.inspect().failedBlocks().size()].block);
             if (random() % 300 == 0) planet.tools().dropAll();
-            if (random() % 300 == 0) planet.beginTilesAnew(BlockKind::Colours);
-            if (random() % 400 == 0) planet.tools().startAnew();
+            if (random() % 300 == 0) planet.reloadTiles(BlockKind::Colours);
+            if (random() % 400 == 0) planet.tools().reset();
             if (random() % 100 == 0) {
                 settings.maxColourTiles = 40 + static_cast<std::uint32_t>(random() % 60);
                 settings.retry.retries = static_cast<int>(random() % 4);
@@ -454,7 +454,7 @@ TEST(Retries, ARecordingWithThemIsFollowedExactly) {
     const auto replay = Planet::open(healthy.source(), settings).value();
     const ViewInput before = inputOf(viewAt(80, 0));
     for (int i = 0; i < 10; ++i) replay->step({&before, 1}, noUpload, 0.1 / 3);
-    replay->tools().startAnew();
+    replay->tools().reset();
     planet->tools().keepMoves(true);
     replay->tools().keepMoves(true);
     for (int i = 0; i < 600; ++i) {
@@ -470,8 +470,8 @@ TEST(Retries, ARecordingWithThemIsFollowedExactly) {
         ASSERT_EQ(drawn(*replay), drawn(*planet)) << i;
     }
     EXPECT_GT(planet->paging()[BlockKind::Heights].failed, 20u);
-    EXPECT_GT(planet->paging().failedForGood(), 1u);
-    EXPECT_EQ(replay->paging().failedForGood(), planet->paging().failedForGood());
+    EXPECT_GT(planet->paging().failedPermanently(), 1u);
+    EXPECT_EQ(replay->paging().failedPermanently(), planet->paging().failedPermanently());
 }
 
 }  // namespace

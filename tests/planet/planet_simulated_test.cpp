@@ -280,7 +280,7 @@ TEST(SimulatedPaging, ABadDiskThatChangesHoldsForReadsUnderWay) {
     EXPECT_GT(planet->paging()[BlockKind::Heights].loaded, 0u);
 }
 
-TEST(SimulatedPaging, SwitchedOnWhatThreadsWereReadingIsReadAnew) {
+TEST(SimulatedPaging, SwitchedOnWhatThreadsWereReadingIsReadAgain) {
     Gated gated;
     const auto planet = openWith({}, gated.source());
     stepOnce(*planet, viewAt(10, 20));
@@ -300,24 +300,24 @@ TEST(SimulatedPaging, SwitchedOnWhatThreadsWereReadingIsReadAnew) {
     EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 0u);
 }
 
-TEST(Planet, StartedAnewItIsAsIfJustOpened) {
+TEST(Planet, AfterResetItIsAsIfJustOpened) {
     const auto used = openWith(troubled()), fresh = openWith(troubled());
     simulatedFlight(*used);
     used->setPaging(troubled()).value();
     used->setExaggeration(1);
-    used->tools().startAnew();
+    used->tools().reset();
     EXPECT_EQ(used->tree().residentChunks, 6u);
     EXPECT_TRUE(used->inspect().pendingRequests(PagingType::PageIn).empty());
     EXPECT_EQ(simulatedFlight(*used), simulatedFlight(*fresh));
 }
 
-TEST(Planet, StartedAnewWhilePausedNothingIsLetThrough) {
+TEST(Planet, ResetWhilePausedLetsNothingThrough) {
     PagingSettings settings = simulated({.latencyMs = 1000});
     settings.paused = true;
     const auto planet = openWith(settings);
     stepOnce(*planet, viewAt(10, 20));
     for (int i = 0; i < 3; ++i) planet->tools().loadOne();
-    planet->tools().startAnew();
+    planet->tools().reset();
     for (int frame = 0; frame < 200; ++frame) stepOnce(*planet, viewAt(10, 20));
     EXPECT_EQ(planet->paging()[BlockKind::Heights].loaded, 0u);
     EXPECT_TRUE(planet->inspect().loadingNow().empty());
@@ -335,12 +335,12 @@ TEST(Planet, AStepByTheClockGoesOnFromAStepOfAGivenLength) {
     EXPECT_LE(planet->lastStep().elapsedS, atMost.count());  // without what was before the given one
 }
 
-TEST(Planet, StartedAnewWhatThreadsAreReadingComesToNothing) {
+TEST(Planet, ResetDiscardsWhatThreadsAreReading) {
     Gated gated;
     const auto planet = openWith({}, gated.source());
     stepOnce(*planet, viewAt(10, 20));
     gated.gate.waitForArrivals(1);
-    planet->tools().startAnew();
+    planet->tools().reset();
     EXPECT_TRUE(planet->inspect().loadingNow().empty());
     EXPECT_EQ(planet->paging().cancelled, planet->paging().requested);
     gated.gate.open();

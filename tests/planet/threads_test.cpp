@@ -140,7 +140,7 @@ private:
             case 9:
                 return planet_->tools().dropAll();
             case 10:
-                return planet_->tools().startAnew();
+                return planet_->tools().reset();
             case 11:
                 return planet_->setExaggeration(0.5 + static_cast<double>(random_() % 3));
             case 12:
@@ -152,9 +152,9 @@ private:
             case 15:
                 return settle();
             case 16:
-                return planet_->beginTilesAnew(BlockKind::Colours);
+                return planet_->reloadTiles(BlockKind::Colours);
             case 17:
-                return planet_->beginTilesAnew(BlockKind::Normals);
+                return planet_->reloadTiles(BlockKind::Normals);
             case 18:
                 return planet_->tools().keepMoves(random_() % 2 == 0);
             case 19:

@@ -19,7 +19,7 @@ struct HeldTiles {
     // Each tile that arrives finds its slot empty.
     void follow(const std::vector<TileChange>& changes, const std::function<void(const TileData&)>& arrived) {
         for (const TileChange& change : changes) {
-            if (change.beginsAnew) tiles.clear();
+            if (change.resets) tiles.clear();
             if (change.gone) {
                 std::erase_if(tiles, [&](const auto& slot) {
                     return slot.second.level == change.gone->level + 1 &&

@@ -88,8 +88,8 @@ void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name
 void warningCells(const EditorView& view, Cells& cells) {
     const Palette& colours = palette();
     const planet::PagingCounters& paging = view.frames.stats.paging;
-    if (paging.failedForGood() > 0) {
-        cells.add(fmt::format("{} failed", paging.failedForGood()),
+    if (paging.failedPermanently() > 0) {
+        cells.add(fmt::format("{} failed", paging.failedPermanently()),
                   "Blocks that could not be read: see the Failed tab of the Paging panel, and the Log panel.",
                   colours.bad);
     }

@@ -59,7 +59,7 @@ public:
     Result<void> setColourImage(std::span<const std::uint8_t> rgb, int width, int height);
 
     // Makes a pool for the planet's own colours, which then replace the image; unset restores the image.
-    // Next, call followColours() with all of Planet::takeTileChanges() since beginTilesAnew() or the planet's
+    // Next, call followColours() with all of Planet::takeTileChanges() since reloadTiles() or the planet's
     // opening. On an Error the last pool stays.
     Result<void> setColours(const std::optional<ColourPoolConfig>& config);
     void followColours(std::span<const TileChange> changes);

@@ -106,7 +106,7 @@ Result<void> ColourClipmap::makeStack(int layers) {
 
 void ColourClipmap::follow(std::span<const TileChange> changes) {
     for (const TileChange& change : changes) {
-        if (change.beginsAnew) windows_.forget();
+        if (change.resets) windows_.forget();
         if (change.gone) windows_.changeBlock(*change.gone);
         if (change.arrived.empty()) continue;
         const ChunkId& first = change.arrived.front().id;

@@ -127,7 +127,7 @@ TilePool::Page TilePool::pageOf(const ChunkId& tile) const {
 
 void TilePool::follow(std::span<const TileChange> changes) {
     for (const TileChange& change : changes) {
-        if (change.beginsAnew) beginAnew();
+        if (change.resets) reset();
         if (change.gone) {
             const Page above = pageOf(*change.gone);
             for (int q = 0; q < quadrantCount; ++q) setPages(childOf(*change.gone, q), above);
@@ -142,7 +142,7 @@ void TilePool::follow(std::span<const TileChange> changes) {
     }
 }
 
-void TilePool::beginAnew() {
+void TilePool::reset() {
     table_.clear();
     for (std::size_t face = 0; face < faceCount; ++face) {
         for (int level = 0; level <= leafLevel_; ++level) table_.emplace_back(std::size_t{1} << (2 * level));

@@ -70,7 +70,7 @@ private:
     TilePool() = default;
     static Result<TilePool> make(const Texels& texels, int leafLevel, std::uint32_t tileCapacity);
     void allocate();
-    void beginAnew();
+    void reset();
     void upload(std::uint32_t slot, const TileData& tile);
     void uploadRoot(const TileData& root);
     std::vector<std::uint8_t> unpacked(const TileData& tile) const;

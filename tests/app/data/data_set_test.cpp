@@ -84,7 +84,7 @@ TEST(DataSet, ColoursHaveABakeOfTheirOwn) {
     EXPECT_NE(cachedBakeOf(image, {}, {}, colour), with);
 }
 
-TEST(DataSet, AChangedSourceOrSettingIsBakedAnew) {
+TEST(DataSet, AChangedSourceOrSettingIsBakedAgain) {
     const TemporaryFolder folder;
     const fs::path image = folder.path() / "moon.tif";
     writeFile(image, "x");

@@ -202,7 +202,7 @@ TEST(CameraRig, aFlightIsJoinedWithoutAJumpAndThenFollowed) {
     expectSame(driver.rig.camera, expected);
 }
 
-TEST(CameraRig, aFlightPausesScrubsAndBeginsAnewAtItsEnd) {
+TEST(CameraRig, aFlightPausesScrubsAndRestartsAtItsEnd) {
     const tests::TemporaryFolder folder;
     Driver driver;
     ASSERT_TRUE(startFlight(driver.rig, writeFlight(folder), driver.settings));

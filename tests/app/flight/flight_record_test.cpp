@@ -259,7 +259,7 @@ TEST_F(FlightRecordTest, AFlightOverADamagedFileReplaysExactlyThoughTheFileIsMen
     stream.close();
     const auto planet = openPlanet(troubled(true));
     const FlightRecord record = loadFlightRecord(written(flyAbout(*planet, troubled(true), 120))).value();
-    EXPECT_GT(planet->paging().failedForGood(), 0u);
+    EXPECT_GT(planet->paging().failedPermanently(), 0u);
     std::size_t bad = 0, failed = 0, byName = 0;
     for (const FlightFrame& frame : record.frames) {
         for (const planet::PagingMoves::Arrival& arrival : frame.moves.arrived) {

@@ -220,7 +220,7 @@ TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
     openSweptChunks(controller, 33, session, settings_, log_);
     EXPECT_FALSE(session.bake);
     EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 33);
-    // One that is gone is baked anew.
+    // A bake that is gone is baked again.
     std::filesystem::remove(usual->chunkFile);
     openSweptChunks(controller, 17, session, settings_, log_);
     EXPECT_TRUE(session.bake);

@@ -342,7 +342,7 @@ TEST_F(ClipmapScene, isRightAgainAfterThePoolOrItsTilesAreNew) {
     settledPicture(scene, ColourMode::Clipmap);
     EXPECT_NE(scene.planet->paging()[planet::BlockKind::Colours].capacity, tiles);
     const std::vector<std::uint8_t> before = settledPicture(scene, ColourMode::Clipmap);
-    scene.planet->beginTilesAnew(planet::BlockKind::Colours);
+    scene.planet->reloadTiles(planet::BlockKind::Colours);
     EXPECT_NE(picture(scene, view_), before);
     EXPECT_EQ(settledPicture(scene, ColourMode::Clipmap), before);
     scene.planet->tools().dropAll();

@@ -44,9 +44,9 @@ protected:
             planet_.renderer().setColours(ColourPoolConfig{format, leaf, static_cast<std::uint32_t>(6 * 21)});
         ASSERT_TRUE(made) << made.error().message;
         slot_ = 0;
-        TileChange anew;
-        anew.beginsAnew = true;
-        planet_.renderer().followColours({&anew, 1});
+        TileChange reset;
+        reset.resets = true;
+        planet_.renderer().followColours({&reset, 1});
     }
 
     TileData tileOf(const ColourSource& source, const ChunkId& id) const {

@@ -193,7 +193,7 @@ TEST(PopMeter, NoPlaceJumpsFartherThanTheLargest) {
 
 // A spike in the second row stands still while the edge's odd vertices are drawn away under it, along a level
 // edge: only the triangles between them change, by half of its height in the middle of one's longest side.
-TEST(PopMeter, AStitchedEdgeThatIsCutAnewIsSeenBetweenItsVertices) {
+TEST(PopMeter, AStitchedEdgeThatIsCutAgainIsSeenBetweenItsVertices) {
     const PlanetShape& shape = fakePyramid().shape;
     DrawItem item;
     item.id = {Face::PosX, 9, 200, 300};

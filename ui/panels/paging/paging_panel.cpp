@@ -63,9 +63,10 @@ void buttons(const EditorView& view, Commands& commands) {
                "show how the picture loads again."))
         commands.push_back(DropAll{});
     const planet::PagingCounters& p = view.frames.stats.paging;
-    if (p.failedForGood() + p.awaitingRetry() == 0) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, p.failedForGood() > 0 ? palette().bad : palette().warning);
-    const std::string label = fmt::format("Retry {} failed###retry", p.failedForGood() + p.awaitingRetry());
+    if (p.failedPermanently() + p.awaitingRetry() == 0) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, p.failedPermanently() > 0 ? palette().bad : palette().warning);
+    const std::string label =
+        fmt::format("Retry {} failed###retry", p.failedPermanently() + p.awaitingRetry());
     const bool retry = ImGui::Button(label.c_str());
     noteItem("Retry failed");
     if (retry) commands.push_back(RetryFailed{});
@@ -423,7 +424,7 @@ const char* emptyQueueText(const EditorView& view, const PagingPanelState& state
     const planet::PagingCounters& p = view.frames.stats.paging;
     if (p.awaitingRetry() > 0)
         return "The queue is empty: missing blocks could not be read and will be retried.";
-    if (p.failedForGood() > 0) return "The queue is empty: missing blocks could not be read.";
+    if (p.failedPermanently() > 0) return "The queue is empty: missing blocks could not be read.";
     const bool waiting = view.frames.stats.selection.waiting > 0 ||
                          view.planet->views()[0].colours.counters.waiting > 0 ||
                          view.planet->views()[0].normals.counters.waiting > 0;
@@ -682,8 +683,8 @@ void pagingControls(const EditorView& view, const SettingControls& control, View
 // Draws the tab of failed blocks; its title shows their number.
 void failedTab(const EditorView& view, PagingPanelState& state, Commands& commands) {
     const planet::PagingCounters& p = view.frames.stats.paging;
-    const std::uint32_t failed = p.failedForGood() + p.awaitingRetry();
-    const ImVec4 colour = p.failedForGood() > 0 ? palette().bad : palette().warning;
+    const std::uint32_t failed = p.failedPermanently() + p.awaitingRetry();
+    const ImVec4 colour = p.failedPermanently() > 0 ? palette().bad : palette().warning;
     if (failed > 0) ImGui::PushStyleColor(ImGuiCol_Text, colour);
     const bool open = ImGui::BeginTabItem(fmt::format("Failed {}###failed", failed).c_str());
     if (failed > 0) ImGui::PopStyleColor();

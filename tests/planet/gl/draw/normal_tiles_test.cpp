@@ -94,9 +94,9 @@ protected:
         const Result<void> made =
             planet_.renderer().setNormals(NormalPoolConfig{1, 30, testShape().quantumM});
         ASSERT_TRUE(made) << made.error().message;
-        TileChange anew;
-        anew.beginsAnew = true;
-        planet_.renderer().followNormals({&anew, 1});
+        TileChange reset;
+        reset.resets = true;
+        planet_.renderer().followNormals({&reset, 1});
     }
     void addTiles(const Tiles& tiles, bool withBlocks = true) {
         for (std::uint32_t face = 0; face < faceCount; ++face) {

@@ -145,7 +145,7 @@ TEST_F(ClippedColours, FollowTilesThatComeAndGo) {
     const View view = smallView({20, 30}, 3e5, -50);
     moveTo(view);
     const Picture coarse = drawn(view);
-    const auto expectAsMadeAnew = [&] {
+    const auto expectAsNew = [&] {
         moveTo(view);
         const Picture followed = drawn(view);
         useClipmap(256);
@@ -155,15 +155,15 @@ TEST_F(ClippedColours, FollowTilesThatComeAndGo) {
     };
     const ChunkId root{Face::PosX, 0, 0, 0};
     addChildren(root, tile);
-    const Picture finer = expectAsMadeAnew();
+    const Picture finer = expectAsNew();
     EXPECT_GT(differenceOf(coarse, finer).mean, 5);
     for (int q = 0; q < quadrantCount; ++q) addChildren(childOf(root, q), tile);
-    const Picture finest = expectAsMadeAnew();
+    const Picture finest = expectAsNew();
     EXPECT_GT(differenceOf(finer, finest).mean, 5);
     for (int q = 0; q < quadrantCount; ++q) removeChildren(childOf(root, q));
-    EXPECT_EQ(expectAsMadeAnew().rgb, finer.rgb);
+    EXPECT_EQ(expectAsNew().rgb, finer.rgb);
     removeChildren(root);
-    EXPECT_EQ(expectAsMadeAnew().rgb, coarse.rgb);
+    EXPECT_EQ(expectAsNew().rgb, coarse.rgb);
 }
 
 // What lies above a missing tile is stretched over it, to the same colours as where tiles are drawn from.
