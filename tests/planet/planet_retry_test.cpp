@@ -202,7 +202,7 @@ TEST(Retries, AreAskedForByNameOrAllTogether) {
     EXPECT_EQ(flaky.reads(posXRoot), 3u);
 }
 
-// Such a block is not retried each time its parent is loaded again.
+// A permanently failed block is not retried each time its parent is loaded again.
 TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
     Flaky flaky;
     const ChunkId bad = childOf(posXRoot, 1);

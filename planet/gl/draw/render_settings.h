@@ -38,7 +38,7 @@ struct RenderSettings {
     double imageOpacity = 1;                       // of the image over the ramp, [0, 1]
     // On: the planet's own colours replace the image if setColours was given a pool.
     bool streamed = true;
-    // As TileSettings::texelsPerPixel, for streamed colours. Larger values are sharper and may shimmer.
+    // The TileSettings::texelsPerPixel of streamed colours. Larger values are sharper and may shimmer.
     double texelsPerPixel = 1;
     // PlanetRenderer draws streamed colours from a clipmap with windows of this many texels per side: a power
     // of two, [smallestClipmapPx, largestClipmapPx] (planet/surface/colour_clipmap.h). Unset: from the tiles.
