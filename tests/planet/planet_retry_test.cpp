@@ -118,7 +118,7 @@ TEST(BlockStateDeathTest, AStepThatIsNotInTheDiagramAsserts) {
     EXPECT_DEBUG_DEATH(changeState(state, ChildrenState::Resident), "isStep");
 }
 
-TEST(Retries, ComeAfterDelaysThatDoubleAndThenTheBlockHasFailedForGood) {
+TEST(Retries, delaysDoubleUntilTheBlockFailsPermanently) {
     Flaky flaky;
     flaky.failing[posXRoot] = {.left = -1};
     const auto planet = Planet::open(flaky.source(), simulatedRetry({.retries = 3, .delayS = 0.5})).value();
@@ -161,7 +161,7 @@ TEST(Retries, ABlockThatComesAfterAllIsForgottenAsIfItHadNeverFailed) {
     EXPECT_EQ(drawn(*planet), drawnOfWhole(viewAt(10, 20), fineSettings()));
 }
 
-TEST(Retries, WhatIsReadAndWrongHasFailedForGoodAtOnce) {
+TEST(Retries, corruptBlocksFailPermanentlyAtOnce) {
     Flaky flaky;
     flaky.failing[posXRoot] = {.left = -1, .kind = ErrorKind::BadInput};
     const auto planet = Planet::open(flaky.source(), simulatedRetry({})).value();
@@ -203,7 +203,7 @@ TEST(Retries, AreAskedForByNameOrAllTogether) {
 }
 
 // A permanently failed block is not retried each time its parent is loaded again.
-TEST(Retries, WhatFailedForGoodIsRememberedWhileItsParentIsAway) {
+TEST(Retries, permanentFailuresAreRememberedWhileTheParentIsEvicted) {
     Flaky flaky;
     const ChunkId bad = childOf(posXRoot, 1);
     flaky.failing[bad] = {.left = -1};
@@ -273,7 +273,7 @@ TEST(Retries, OnlyBlocksThatAreWantedAreTriedAgain) {
     EXPECT_THAT(planet->inspect().failedBlocks(), IsEmpty());
 }
 
-TEST(Retries, ATileOfColourIsAChequerOnlyOnceItHasFailedForGood) {
+TEST(Retries, aColourTileIsACheckerboardOnlyAfterItFailedPermanently) {
     Flaky flaky;
     const BlockId bad{posXRoot, BlockKind::Colours};
     flaky.failing[bad] = {.left = -1};

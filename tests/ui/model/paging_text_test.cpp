@@ -46,7 +46,7 @@ TEST(PagingText, aFailedBlockSaysWhenItIsTriedAgain) {
     EXPECT_STREQ(kindText(planet::BlockKind::Normals), "normals");
 }
 
-TEST(PagingText, blocksThatHaveFailedForGoodComeFirstThenTheSoonest) {
+TEST(PagingText, permanentFailuresComeFirstThenTheSoonestRetry) {
     const auto block = [](std::uint32_t x, std::optional<double> retryInS) {
         return planet::FailedBlock{planet::ChunkId{planet::Face::PosX, 3, x, 0}, 1, "bad", retryInS};
     };
