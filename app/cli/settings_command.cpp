@@ -32,9 +32,7 @@ nlohmann::ordered_json rangeJson(const char* type, const Kind& kind) {
 struct KindJson {
     nlohmann::ordered_json operator()(const Number& number) const { return rangeJson("number", number); }
     nlohmann::ordered_json operator()(const Integer& integer) const { return rangeJson("integer", integer); }
-    nlohmann::ordered_json operator()(const Seed&) const {
-        return rangeJson("integer", Number{nullptr, {0, 4294967295.0, ""}});
-    }
+    nlohmann::ordered_json operator()(const Seed& seed) const { return rangeJson("integer", seed); }
     nlohmann::ordered_json operator()(const Flag&) const { return {{"type", "flag"}}; }
     nlohmann::ordered_json operator()(const Text&) const { return {{"type", "text"}}; }
     nlohmann::ordered_json operator()(const Ramp&) const { return {{"type", "ramp"}}; }
@@ -66,8 +64,7 @@ std::string settingsTable(std::span<const Field> fields) {
     std::string text =
         "# Settings\n\n"
         "`worldy settings --table > app/SETTINGS.md` writes this page. The names are those of the settings "
-        "file and "
-        "of `--set`.\n";
+        "file and of `--set`.\n";
     std::string_view table;
     for (const Field& field : fields) {
         if (field.table != table) {

@@ -45,7 +45,7 @@ struct ReadField {
         });
     }
     Result<void> operator()(const Seed& seed) const {
-        return readInteger(file, name, node, {0, 4294967295.0, ""}).map([&](std::int64_t v) {
+        return readInteger(file, name, node, Seed::range).map([&](std::int64_t v) {
             *seed.value = static_cast<std::uint32_t>(v);
         });
     }
@@ -164,7 +164,7 @@ struct AllowedText {
     std::string operator()(const Integer& integer) const {
         return fmt::format("integer in {}", textOf(integer.range));
     }
-    std::string operator()(const Seed&) const { return "integer in [0, 4294967295]"; }
+    std::string operator()(const Seed&) const { return fmt::format("integer in {}", textOf(Seed::range)); }
     std::string operator()(const Flag&) const { return "true or false"; }
     std::string operator()(const Text&) const { return "text"; }
     std::string operator()(const Ramp&) const {

@@ -594,6 +594,19 @@ void addCompare(Fields& fields, CompareSettings& compare) {
           "Show B"}});
 }
 
+void addViewSettings(Fields& fields, ViewSettings& view) {
+    addLod(fields, view.lod);
+    addSeams(fields, view.lod, view.overlay);
+    addPaging(fields, view.paging);
+    addOverlay(fields, view.overlay);
+    addSurface(fields, view.surface);
+    addLayers(fields, view.surface.layers);
+    addLight(fields, view.surface.light);
+    addView(fields, view.camera);
+    addCracks(fields, view.cracks);
+    addCompare(fields, view.compare);
+}
+
 // The size of the largest list, so that it is allocated once.
 constexpr std::size_t fieldCount = 114 + 2 * panelCount + dockCount;
 
@@ -611,35 +624,17 @@ std::vector<Field> fieldsOf(Settings& settings) {
     Fields fields;
     fields.reserve(fieldCount);
     addData(fields, settings);
-    addLod(fields, settings.view.lod);
-    addSeams(fields, settings.view.lod, settings.view.overlay);
-    addPaging(fields, settings.view.paging);
-    addOverlay(fields, settings.view.overlay);
-    addSurface(fields, settings.view.surface);
-    addLayers(fields, settings.view.surface.layers);
-    addLight(fields, settings.view.surface.light);
-    addView(fields, settings.view.camera);
+    addViewSettings(fields, settings.view);
     addCamera(fields, settings.camera);
     addWindow(fields, settings);
     addPanels(fields, settings.workspace);
-    addCracks(fields, settings.view.cracks);
-    addCompare(fields, settings.view.compare);
     return fields;
 }
 
 std::vector<Field> fieldsOf(ViewSettings& view) {
     Fields fields;
     fields.reserve(fieldCount);
-    addLod(fields, view.lod);
-    addSeams(fields, view.lod, view.overlay);
-    addPaging(fields, view.paging);
-    addOverlay(fields, view.overlay);
-    addSurface(fields, view.surface);
-    addLayers(fields, view.surface.layers);
-    addLight(fields, view.surface.light);
-    addView(fields, view.camera);
-    addCracks(fields, view.cracks);
-    addCompare(fields, view.compare);
+    addViewSettings(fields, view);
     return fields;
 }
 

@@ -29,6 +29,7 @@ struct Integer {
     SliderScale scale = SliderScale::Linear;
 };
 struct Seed {
+    static constexpr NumberRange range{0, 4294967295.0, ""};
     std::uint32_t* value;
 };
 struct Flag {
