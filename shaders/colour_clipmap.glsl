@@ -21,7 +21,10 @@ layout(std140) uniform Clipmap {
     int wholeLevel;  // the finest level that is kept whole
 } clipmap;
 
-// Mirrors clipmapDistance in planet/surface/colour_clipmap.h.
+// Returns the distance of a place, [0, 1] across a face, from the viewer, in half sides of a face: along the
+// larger axis on the viewer's face, and summed across the edge on the next face. Two faces that meet next to
+// a corner of the viewer's face must agree on their common edge, so the distance there is the larger of the
+// two, in addition to the distance on the unfolded cube. tests/support/clipmap_levels.h has the same formula.
 float clipmapDistance(vec2 place, int face) {
     vec3 outward = abs(frame.faces[face].normal);
     vec3 point = frame.faces[face].normal + (2.0 * place.x - 1.0) * frame.faces[face].u +
@@ -38,7 +41,8 @@ float clipmapDistance(vec2 place, int face) {
     return max(max(down + dot(apart, outward), dot(apart, side)), down + corner);
 }
 
-// Mirrors clipmapFinest in planet/surface/colour_clipmap.h.
+// Returns the finest level that may be drawn at a distance. A fraction mixes two levels, so that a window's
+// border is invisible.
 float finestOfClipmap(float away) {
     float level = log2(clipmap.reach / max(away, 1e-9));
     float holding = floor(level);

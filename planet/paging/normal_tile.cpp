@@ -308,14 +308,4 @@ Result<TileBlock> NormalDeriver::childrenOf(const ChunkId& parent) {
     return block;
 }
 
-std::array<float, 2> slopeOfTexel(const TileData& tile, int column, int row) {
-    assert(column >= 0 && column < tileTexels && row >= 0 && row < tileTexels);
-    std::array<std::uint16_t, 2> halves{};
-    const std::size_t at =
-        (static_cast<std::size_t>(row) * tileTexels + static_cast<std::size_t>(column)) * sizeof halves;
-    assert(tile.texels.size() == normalTileBytes);
-    std::memcpy(halves.data(), tile.texels.data() + at, sizeof halves);
-    return {glm::unpackHalf1x16(halves[0]), glm::unpackHalf1x16(halves[1])};
-}
-
 }  // namespace planet

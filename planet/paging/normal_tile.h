@@ -68,7 +68,4 @@ private:
     FinestHeights heights_;
 };
 
-// Returns g_u and g_v of a texel; column and row: [0, tileTexels).
-std::array<float, 2> slopeOfTexel(const TileData& tile, int column, int row);
-
 }  // namespace planet

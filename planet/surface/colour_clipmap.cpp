@@ -141,33 +141,8 @@ std::vector<TorusPiece> onTorus(const TexelRect& texels, int sizePx) {
     return pieces;
 }
 
-double clipmapDistance(const ClipmapCentre& centre, Face face, const glm::dvec2& place) {
-    const glm::dvec3 point = cubePoint(face, 2 * place.x - 1, 2 * place.y - 1);
-    const glm::dvec3 apart = glm::abs(point - centre.cube);
-    const glm::dvec3 up = glm::abs(faceAxes(centre.home).normal);
-    const glm::dvec3 out = glm::abs(faceAxes(face).normal);
-    const double down = glm::dot(apart, up);
-    if (up == out) {
-        const glm::dvec3 along = apart * (1.0 - up);
-        return std::max({along.x, along.y, along.z}) + down;
-    }
-    // Two faces that meet next to a corner of the viewer's face must agree on their common edge. So the
-    // distance there is the larger of the two, in addition to the distance on the unfolded cube.
-    const glm::dvec3 side = 1.0 - up - out;
-    const double corner = std::abs(2 * glm::dot(point, side) - glm::dot(centre.cube, side)) - 1;
-    return std::max({down + glm::dot(apart, out), glm::dot(apart, side), down + corner});
-}
-
 double clipmapReach(const ClipmapLayout& layout) {
     return static_cast<double>(layout.sizePx - 2 * clipmapMarginTexels) / colourTileCells;
-}
-
-double clipmapFinest(const ClipmapLayout& layout, double distance) {
-    const double level = std::log2(clipmapReach(layout) / std::max(distance, 1e-9));
-    const double holding = std::floor(level);  // the finest whose window reaches that far
-    const double inside = 1 - std::exp2(holding - level);
-    const double finest = holding - 1 + std::min(inside / clipmapFade, 1.0);
-    return std::clamp(finest, static_cast<double>(layout.wholeLevel), static_cast<double>(layout.leafLevel));
 }
 
 ClipmapWindows::ClipmapWindows(const ClipmapLayout& layout) : layout_(layout), finest_(layout.wholeLevel) {

@@ -88,13 +88,6 @@ struct TorusPiece {
 };
 std::vector<TorusPiece> onTorus(const TexelRect& texels, int sizePx);
 
-// Returns the distance of a place, [0, 1] across a face, from the viewer, in half sides of a face, by the
-// shape of windows: along the larger axis on the viewer's face, and summed across the edge on the next face.
-// Continuous over the whole cube.
-double clipmapDistance(const ClipmapCentre& centre, Face face, const glm::dvec2& place);
-// Returns the finest level that may be drawn at a distance, >= wholeLevel. A fraction mixes two levels, so
-// that a window's border is invisible. Mirrors the shader, for tests.
-double clipmapFinest(const ClipmapLayout& layout, double distance);
 // Returns the reach of a window of level 0, in half sides of a face. Each finer level reaches half as far.
 double clipmapReach(const ClipmapLayout& layout);
 inline constexpr double clipmapFade = 0.125;  // share of a window's reach over which it fades

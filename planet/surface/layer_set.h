@@ -94,10 +94,6 @@ LayerValues layerCoverage(const LayerSet& set, const LayerPlace& place);
 // below has the rest to 1.
 LayerValues layerWeights(const LayerSet& set, const LayerPlace& place);
 
-// Redistributes the weights by the layers' relief, [0, 1] each, and keeps their sum. Returns the weights
-// unchanged if the set blends by weight.
-LayerValues weightsByRelief(const LayerSet& set, const LayerValues& weights, const LayerValues& relief);
-
 // A range as two linear functions for the shader: (value - lowest) x rise and (highest - value) x fall, both
 // clamped to [0, 1]. At an open end the function is far above 1.
 struct RangeLines {

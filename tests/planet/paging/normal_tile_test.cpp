@@ -11,6 +11,7 @@
 
 #include "planet/sphere/face_fold.h"
 #include "tests/support/made_chunks.h"
+#include "tests/support/texel_slope.h"
 
 namespace planet {
 namespace {

@@ -7,6 +7,8 @@
 #include <map>
 #include <random>
 
+#include "tests/support/clipmap_levels.h"
+
 namespace planet {
 namespace {
 

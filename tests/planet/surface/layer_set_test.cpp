@@ -8,6 +8,7 @@
 #include <random>
 
 #include "planet/surface/layer_noise.h"
+#include "tests/support/layer_relief.h"
 
 namespace planet {
 namespace {

@@ -9,6 +9,7 @@
 #include "planet/surface/layer_place.h"
 #include "tests/planet/gl/gl_test.h"
 #include "tests/planet/gl/test_planet.h"
+#include "tests/support/layer_relief.h"
 
 namespace planet::gl {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tests/planet/gl/streamed_colours.h"
+#include "tests/support/clipmap_levels.h"
 
 namespace planet::gl {
 namespace {
