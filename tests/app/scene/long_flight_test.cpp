@@ -153,7 +153,9 @@ TEST_F(LongFlightDrawn, HoldsNoMoreAtItsEndThanAtItsStart) {
 // As the window does: another file opened over and over, a bake kept beside it, the renderer's pools of
 // another size.
 TEST_F(LongFlightDrawn, SwappedFilesLeaveNothingBehind) {
-    const int swaps = std::getenv("WORLDY_FLIGHT_SECONDS") ? 50 : tests::sanitized ? 12 : 16;
+    // The driver holds up to a twentieth more or less from one moment to the next, so the least of several late
+    // counts is compared.
+    const int swaps = std::getenv("WORLDY_FLIGHT_SECONDS") ? 50 : tests::sanitized ? 12 : 32;
     Session session = sessionOf(files_[1]);
     ObjectCounts warm;
     std::optional<Holding> warmHolding, laterHolding;  // the least
