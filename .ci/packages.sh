@@ -10,6 +10,8 @@ libglfw3-dev            window and input
 libimgui-dev            panels
 libopenimageio-dev      reads and writes images
 libtiff-dev             where a GeoTIFF lies, which OpenImageIO does not tell
+libgdal-dev             reads elevation of any format and projection
+libproj-dev             where the coordinates of a raster lie on the planet
 libglm-dev              vectors and matrices
 libepoxy-dev            OpenGL and EGL entry points
 libegl-dev              pictures without a display

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planet/base/result.h"
-#include "planet/source/image_placement.h"
+#include "planet/raster/image_placement.h"
 
 namespace worldy {
 
@@ -22,7 +22,7 @@ struct Picture {
 planet::Result<Picture> readPicture(const std::filesystem::path& file);
 
 // Reads a picture of a whole planet and resamples it to pixel centres from longitude -180 to 180. GeoTIFF
-// tags or the size say where its samples lie (planet/source/image_placement.h). A picture without tags may
+// tags or the size say where its samples lie (planet/raster/image_placement.h). A picture without tags may
 // have any shape. A region or another projection is an Error.
 planet::Result<Picture> readPlanetPicture(const std::filesystem::path& file);
 

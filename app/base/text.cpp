@@ -1,6 +1,7 @@
 #include "app/base/text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,8 +22,22 @@ std::string threeDigits(double value) {
 
 }  // namespace
 
+bool isUtf8(std::string_view text) {
+    try {
+        nlohmann::json(text).dump();  // throws on text that is not UTF-8
+        return true;
+    } catch (const nlohmann::json::exception&) {
+        return false;
+    }
+}
+
 std::string sourceName(const std::filesystem::path& source) {
-    if (!planet::isTerrainText(source)) return source.filename().string();
+    if (!planet::isTerrainText(source)) {
+        const std::string text = source.string();
+        const auto more = std::ranges::count(text, '|');
+        const std::string first = std::filesystem::path(text.substr(0, text.find('|'))).filename().string();
+        return more == 0 ? first : fmt::format("{} and {} more", first, more);
+    }
     const planet::Result<planet::TerrainSource> terrain = planet::terrainFromText(source);
     if (!terrain || terrain->of.empty()) return source.string();
     return sourceName(terrain->of) + " with detail";

@@ -10,7 +10,11 @@
 
 namespace worldy {
 
-// Returns the short name of a source: "elevation.tif", "elevation.tif with detail", "noise:ridged,seed=7".
+// Returns true if the text is well-formed UTF-8, as TOML requires.
+bool isUtf8(std::string_view text);
+
+// Returns the short name of a source: "elevation.tif", "elevation.tif with detail", "a.tif and 2
+// more", "noise:ridged,seed=7".
 std::string sourceName(const std::filesystem::path& source);
 std::string flightName(const std::filesystem::path& file);  // "orbit to ground" for orbit_to_ground.toml
 std::string bytesText(double bytes);                        // "12.3 MiB"

@@ -1,47 +1,19 @@
-// Reads TOML. Each Error names the file, the line, the key and the expected value.
+// Reads TOML, as the library does.
 #pragma once
 
-#include <toml++/toml.h>
-
-#include <filesystem>
-#include <string>
-#include <string_view>
-
-#include "planet/base/result.h"
+#include "planet/source/toml_file.h"
 
 namespace worldy {
 
-struct NumberRange {
-    double min = 0;
-    double max = 0;
-    std::string_view unit;  // "px"; may be empty
-};
-
-// Reads a file of at most 16 MiB.
-planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path);
-// Parses text. place stands for the file name in errors.
-planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place);
-
-// Returns true if the text is well-formed UTF-8, as TOML requires.
-bool isUtf8(std::string_view text);
-
-// Returns a value for a message, truncated to 60 bytes.
-std::string shownValue(const toml::node& node);
-
-// Returns "settings.toml: line 3", without the line if the node was not parsed from text.
-std::string placeOf(const std::filesystem::path& file, const toml::node& node);
-
-// Returns "[0.1, 64] px".
-std::string textOf(const NumberRange& range);
-
-// Reads a finite number in the range; integers are numbers too.
-planet::Result<double> readNumber(const std::filesystem::path& file, std::string_view name,
-                                  const toml::node& node, const NumberRange& range);
-planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std::string_view name,
-                                         const toml::node& node, const NumberRange& range);
-planet::Result<bool> readBool(const std::filesystem::path& file, std::string_view name,
-                              const toml::node& node);
-planet::Result<std::string> readText(const std::filesystem::path& file, std::string_view name,
-                                     const toml::node& node);
+using planet::NumberRange;
+using planet::parseTomlFile;
+using planet::parseTomlText;
+using planet::placeOf;
+using planet::readBool;
+using planet::readInteger;
+using planet::readNumber;
+using planet::readText;
+using planet::shownValue;
+using planet::textOf;
 
 }  // namespace worldy

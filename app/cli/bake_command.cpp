@@ -67,8 +67,11 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
 
 void printWarnings(const BakeOptions& options, const planet::BakeReport& report) {
     if (report.missingSamples > 0) {
-        printMessage("worldy: {}: {} samples have no data; filled with {} m\n", options.source.string(),
-                     report.missingSamples, options.sourceSettings.fillM);
+        const std::string instead = planet::isWorldFile(options.source)
+                                        ? "its layers say what they show"
+                                        : fmt::format("filled with {} m", options.sourceSettings.fillM);
+        printMessage("worldy: {}: {} samples have no data; {}\n", options.source.string(),
+                     report.missingSamples, instead);
     }
     if (!report.colourNotice.empty()) printMessage("worldy: {}\n", report.colourNotice);
 }

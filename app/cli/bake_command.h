@@ -11,7 +11,9 @@
 namespace worldy {
 
 struct BakeOptions {
-    std::filesystem::path source;       // a path, the text of a terrain, or the name of a world
+    std::vector<std::filesystem::path> sources;  // as given
+    std::filesystem::path
+        source;  // of them all: a path, a list of rasters, the text of a terrain, or the name of a world
     std::optional<std::string> detail;  // parameters of the added detail: "strength=0.8,octaves=4"
     std::filesystem::path output;
     planet::HeightSourceSettings sourceSettings;

@@ -36,9 +36,12 @@
 #include "app/cli/sweep_command.h"
 #include "app/cli/write_plan.h"
 #include "app/data/layer_materials.h"
+#include "app/data/worlds.h"
 #include "app/settings/camera_text.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/view_options.h"
+#include "planet/source/height_source.h"
+#include "planet/source/terrain.h"
 
 namespace worldy {
 
@@ -75,9 +78,11 @@ void addColourFormat(CLI::App& command, planet::ColourBakeSettings& colour) {
 
 void addBake(CLI::App& command, BakeOptions& options) {
     planet::BakeSettings& settings = options.settings;
-    command.add_option("SOURCE", options.source,
-                       "Elevation image, one of six cube faces or their common stem, procedural terrain "
-                       "(noise:ridged,seed=7), or a preset (preset:moon)");
+    command.add_option(
+        "SOURCE", options.sources,
+        "Elevation image, georeferenced rasters (several, or a pattern such as 'tiles/*.tif'), "
+        "one of six cube faces or their common stem, a world file (.toml), procedural terrain "
+        "(noise:ridged,seed=7), or a preset (preset:moon)");
     command.add_flag("--list-presets", options.listPresets,
                      "List the presets and the settings of procedural terrain instead of baking");
     command
@@ -341,7 +346,26 @@ Result<void> finish(ShotOptions& options, const Settings& settings) {
     return {};
 }
 
+// Makes one source of the rasters that are named one by one; the finest lies on top.
+Result<void> joinSources(BakeOptions& options) {
+    for (const std::filesystem::path& source : options.sources) {
+        const bool isOther =
+            planet::isTerrainText(source) || isWorldName(source) || planet::isWorldFile(source);
+        if (options.sources.size() > 1 && isOther) {
+            return planet::badInput(
+                fmt::format("{}: cannot be one of several sources; expected georeferenced rasters, or a "
+                            "world file that lists its layers",
+                            source.string()));
+        }
+        if (options.sources.size() > 1 && planet::heightSourceFiles(source).files.empty())
+            return planet::ioError(fmt::format("{}: no such file", source.string()));
+        options.source += options.source.empty() ? source.string() : '|' + source.string();
+    }
+    return {};
+}
+
 Result<void> finish(BakeOptions& options) {
+    if (const auto joined = joinSources(options); !joined) return joined;
     // The parser gives a flag without a value as "true".
     if (options.detail == "true") options.detail->clear();
     if (options.listPresets) return {};
@@ -424,7 +448,8 @@ struct CommandLine {
     CommandLine() {
         app.set_version_flag("--version", "worldy " WORLDY_VERSION);
         app.add_option("FILE", window.file,
-                       "Chunk file (.chk), elevation image, cube faces, procedural terrain (noise:ridged) or "
+                       "Chunk file (.chk), elevation image or raster, world file (.toml), cube faces, "
+                       "procedural terrain (noise:ridged) or "
                        "preset (preset:moon) to show");
         app.add_option("--settings", window.settingsFile, "Settings file to use instead of the user's");
         app.add_option("--shaders", window.shaderFolder,

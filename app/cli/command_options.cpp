@@ -28,7 +28,8 @@ constexpr const char* reportHelp = "Report to write, JSON";
 
 constexpr std::array<CommandSpec, 16> commandTable = {{
     {.name = "bake",
-     .about = "Bake an elevation image, six cube faces or procedural terrain into a chunk file",
+     .about = "Bake elevation images or rasters, a world file, six cube faces or procedural terrain into a "
+              "chunk file",
      .takes = takes::json | takes::output | takes::source,
      .output = "Chunk file to write"},
     {.name = "info", .about = "Describe the content of a chunk file", .takes = takes::json},

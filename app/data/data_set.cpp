@@ -134,7 +134,8 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
             return tl::unexpected(good.error());
     } else if (planet::heightSourceFiles(source->source).files.empty()) {
         return planet::badInput(
-            fmt::format("{}: no such file; expected a chunk file (.chk), an elevation image, one of six cube "
+            fmt::format("{}: no such file; expected a chunk file (.chk), an elevation image or raster, a "
+                        "world file, one of six cube "
                         "faces, terrain such as noise:ridged, or a preset such as preset:moon",
                         named.string()));
     } else if (named.extension() == ".chk") {

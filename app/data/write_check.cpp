@@ -17,7 +17,7 @@
 #include "app/settings/settings_text.h"
 #include "planet/base/atomic_file.h"
 #include "planet/format/chunk_file_format.h"
-#include "planet/source/geo_tags.h"
+#include "planet/raster/geo_tags.h"
 #include "planet/source/height_source.h"
 
 namespace worldy {

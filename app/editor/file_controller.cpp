@@ -53,7 +53,8 @@ bool openScreenshot(const std::filesystem::path& file, const FileContext& contex
 void open(FileController& files, const std::filesystem::path& file, const FileContext& context,
           Notices& notices, ui::Commands& next) {
     if (!planet::isTerrainText(file)) {
-        if (file.extension() == ".toml") return openPreset(file, context, notices);
+        if (file.extension() == ".toml" && !planet::isWorldFile(file))
+            return openPreset(file, context, notices);
         if (isFlightRecord(file)) return next.push_back(ui::StartReplay{file});
         if (file.extension() == ".png" && openScreenshot(file, context, notices)) return;
     }

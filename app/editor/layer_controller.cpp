@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/base/places.h"
+#include "app/base/text.h"
 #include "app/base/toml_file.h"
 #include "app/data/write_check.h"
 #include "app/editor/overloaded.h"

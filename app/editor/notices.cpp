@@ -34,7 +34,8 @@ bool succeeded(Notices& notices, const planet::Result<void>& result, const std::
 ui::Message openingFailed(const std::filesystem::path& file, const planet::Error& error) {
     return {fmt::format("{} cannot be opened", file.filename().string()), error.message,
             fmt::format("The open planet is kept. Fix the file or open another: a "
-                        "chunk file (.chk), an elevation image, a cube face, settings (.toml), a recorded "
+                        "chunk file (.chk), an elevation image or raster, a cube face, a world file or "
+                        "settings (.toml), a recorded "
                         "flight ({}) or one of Worldy's own screenshots (.png).",
                         recordedFlightEnding),
             true};

@@ -191,9 +191,10 @@ planet::Error missingSource(const fs::path& source) {
     if (planet::isTerrainText(source)) {
         if (const auto good = planet::terrainFromText(source); !good) return good.error();
     }
-    return {planet::ErrorKind::BadInput, fmt::format("{}: no such source; expected an elevation image, one "
-                                                     "of six cube faces or terrain such as noise:ridged",
-                                                     source.string())};
+    return {planet::ErrorKind::BadInput,
+            fmt::format("{}: no such source; expected an elevation image or raster, a world file, one "
+                        "of six cube faces or terrain such as noise:ridged",
+                        source.string())};
 }
 
 planet::Error missingColour(const fs::path& image) {

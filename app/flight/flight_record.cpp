@@ -14,6 +14,7 @@
 #include <new>
 #include <set>
 
+#include "app/base/text.h"
 #include "app/base/toml_file.h"
 #include "app/settings/setting_value.h"
 #include "app/settings/settings_schema.h"

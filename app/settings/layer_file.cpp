@@ -9,6 +9,7 @@
 #include <sstream>
 #include <variant>
 
+#include "app/base/text.h"
 #include "app/base/colour_text.h"
 #include "app/base/output_file.h"
 #include "app/base/places.h"

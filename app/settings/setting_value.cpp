@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/base/text.h"
 #include "app/base/colour_text.h"
 #include "app/base/toml_file.h"
 #include "app/settings/layer_file.h"

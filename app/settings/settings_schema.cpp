@@ -28,7 +28,8 @@ void addData(Fields& fields, Settings& s) {
     fields.insert(
         fields.end(),
         {{"data", "set", "Data set",
-          "Chunk file, elevation image or cube faces to open; if empty, the Earth is opened.",
+          "Chunk file, elevation image or raster, world file, or cube faces to open; if empty, the Earth is "
+          "opened.",
           Text{&s.dataSet}},
          {"data", "colour_image", "Colour image",
           "Colour image of the planet; if empty, colour.jpg or colour.png beside the data set is used.",

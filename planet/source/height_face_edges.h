@@ -6,7 +6,7 @@
 #include <string>
 
 #include "planet/base/result.h"
-#include "planet/source/height_raster.h"
+#include "planet/raster/height_raster.h"
 #include "planet/sphere/cube_sphere.h"
 
 namespace planet {

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "planet/base/try.h"
+#include "planet/raster/gdal_raster.h"
+#include "planet/raster/image_placement.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/terrain.h"
 
@@ -66,12 +68,48 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
     return result;
 }
 
+// Opens an image: one of the whole planet by OpenImageIO, any other that has a position on the planet by GDAL.
+Result<HeightSource> openImage(const std::filesystem::path& path, const HeightSourceSettings& settings) {
+    const Result<std::shared_ptr<ImageFile>> image = ImageFile::open(path, settings.colourChannel);
+    const auto placement = image.and_then([&](const std::shared_ptr<ImageFile>& file) {
+        const ImageLayout& layout = file->layout();
+        return placementOf(path.string(), layout.width, layout.height, layout.geoTags);
+    });
+    if (placement || settings.colourChannel || !isGdalRaster(path))
+        return openEquirectangularSource(path, settings);
+    Result<HeightSource> placed = openRasterSource(path, {path}, settings);
+    // Without a position, what matters is what the image lacks to be one of the whole planet.
+    const bool hasPosition = image ? (*image)->layout().geoTags.placement.has_value()
+                                   : !isImageExtension(path.extension().string());
+    return placed || hasPosition ? placed : tl::unexpected(placement.error());
+}
+
 }  // namespace
+
+bool coversPlanet(const std::filesystem::path& path) {
+    if (findFaceFiles(path)) return true;
+    const auto image = ImageFile::open(path, std::nullopt);
+    if (!image) return false;
+    const ImageLayout& layout = (*image)->layout();
+    return placementOf(path.string(), layout.width, layout.height, layout.geoTags).has_value();
+}
 
 Result<HeightSource> openHeightSource(const std::filesystem::path& path,
                                       const HeightSourceSettings& settings) {
     TRY(checkSettings(settings));
     if (isTerrainText(path)) return openTerrain(path, settings);
+    if (isWorldFile(path)) {
+        if (asRead(settings)) return openWorld(path, settings);
+        return badInput(fmt::format(
+            "{}: is a world file, so units, offset, no-data value, fill and raw formats do not apply; "
+            "expected scale, offset_m and voids in its layers, and fill_m",
+            path.string()));
+    }
+    if (isFilePattern(path)) {
+        const std::vector<std::filesystem::path> files = filesOfPattern(path);
+        if (files.empty()) return ioError(fmt::format("{}: no file matches this pattern", path.string()));
+        return openRasterSource(path, files, settings);
+    }
     if (const std::optional<FaceFiles> faces = findFaceFiles(path)) {
         // Lossy pictures differ slightly along their edges, which is not an error for colours.
         const FaceEdges edges = settings.colourChannel ? FaceEdges::MayDiffer : FaceEdges::MustAgree;
@@ -82,7 +120,7 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
         return ioError(fmt::format("{}: no such file, and no cube faces named {}_x_pos.raw or similar",
                                    path.string(), path.string()));
     }
-    return openEquirectangularSource(path, settings);
+    return openImage(path, settings);
 }
 
 }  // namespace planet

@@ -1,11 +1,19 @@
-// Opens a height source: an elevation image, six cube faces or procedural terrain (terrain.h).
+// Opens a height source: an image of the whole planet, georeferenced rasters, six cube faces, procedural terrain
+// (terrain.h), or a world file that lists several of them as layers.
 //
-// An elevation image is equirectangular, of the whole planet, north up, with one grey channel. GeoTIFF tags
-// give the placement of its samples. Without tags, an image of 2 n + 1 by n + 1 samples, or 2 n by n + 1, has
-// the points of a grid whose first point lies at longitude -180 on the north pole. Any other image has its
-// samples at pixel centres, from longitude -180 to 180. Face images are seen as in cube_sphere.h: row 0 at v
-// = +1, column 0 at u = -1, outermost samples on the cube's edges, where neighbouring faces have the same
-// heights. Raw faces are headerless, with rows in the same order.
+// An image of the whole planet is equirectangular, north up, with one grey channel. GeoTIFF tags give the
+// placement of its samples. Without tags, an image of 2 n + 1 by n + 1 samples, or 2 n by n + 1, has the
+// points of a grid whose first point lies at longitude -180 on the north pole. Any other image has its
+// samples at pixel centres, from longitude -180 to 180.
+//
+// Georeferenced rasters cover any part of the planet in any coordinate reference system that PROJ knows: a
+// GeoTIFF, HGT, DTED, ASCII grid, netCDF, JPEG 2000 or ENVI file, or several that a pattern lists. Geodetic
+// latitude goes onto the sphere unchanged. Rasters on one grid are joined before they are filtered; of others,
+// the finest that has a height at a place counts. Where none has one, the height is fillM.
+//
+// Face images are seen as in cube_sphere.h: row 0 at v = +1, column 0 at u = -1, outermost samples on the
+// cube's edges, where neighbouring faces have the same heights. Raw faces are headerless, with rows in the
+// same order.
 #pragma once
 
 #include <filesystem>
@@ -21,15 +29,21 @@ namespace planet {
 // source.
 struct HeightSourceFiles {
     std::string stem;  // "elevation", "earth4097" of earth4097_z_pos.raw, "ridged" of noise:ridged,seed=7
-    std::vector<std::filesystem::path> files;  // one image, or the existing faces; then world files and
-                                               // .aux.xml next to them
+    // One image, the existing faces, or the files of a pattern; then the files next to them that are read too:
+    // ESRI world files (.tfw), .aux.xml, .prj and .hdr.
+    std::vector<std::filesystem::path> files;
 };
 HeightSourceFiles heightSourceFiles(const std::filesystem::path& path);
-// Returns whether a path names a source: an image, a face, or a valid terrain text. A chunk file is not a
-// source.
+// Returns whether a path names a source: an image, a face, a pattern of files, or a valid terrain text. A
+// chunk file is not a source.
 bool heightSourceExists(const std::filesystem::path& path);
 
-// Opens a terrain text ("noise:ridged,seed=7", terrain.h), an elevation image, or six cube faces. For faces,
+// Returns whether a path is a world file, valid or not: TOML with a table [[elevation]]. README.md beside this file
+// describes it.
+bool isWorldFile(const std::filesystem::path& path);
+
+// Opens a world file, a terrain text ("noise:ridged,seed=7", terrain.h), an elevation image, georeferenced rasters by a
+// pattern or list ("tiles/*.tif|more.hgt", in quotes in a shell), or six cube faces. For faces,
 // the path is one of the files (earth4097_z_pos.raw) or their common stem (earth4097), with the extension
 // .raw or that of an image. A face's size is the number at the end of the stem or, without one, follows from
 // the file. It is an Error if heights of faces differ along an edge of the cube by more than rounding. Reads

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/raster/height_raster.h"
+#include "planet/raster/image_placement.h"
 #include "planet/source/height_filter.h"
 #include "planet/source/height_geographic.h"
-#include "planet/source/height_raster.h"
 #include "planet/source/height_source_kinds.h"
-#include "planet/source/image_placement.h"
 #include "planet/source/sample_tiles.h"
 
 namespace planet {

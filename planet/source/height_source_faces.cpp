@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/raster/height_raster.h"
 #include "planet/source/height_face_edges.h"
 #include "planet/source/height_filter.h"
-#include "planet/source/height_raster.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/sample_tiles.h"
 #include "planet/sphere/face_fold.h"
@@ -469,7 +469,7 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
     FaceSet set;
     for (int i = 0; i < faceCount; ++i) {
         const auto face = static_cast<std::size_t>(i);
-        const RasterMemory memory{cache, i, settings.cacheBytes / faceCount};
+        const RasterMemory memory{cache, face, settings.cacheBytes / faceCount};
         TRY_ASSIGN(set.faces[face],
                    raw ? openRawRaster(files.paths[face], format.size, conversion, memory, settings.fileCalls)
                        : openImageRaster(images[face], conversion, memory, settings.fileCalls));

@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planet/base/result.h"
-#include "planet/source/geo_tags.h"
-#include "planet/source/height_raster.h"
+#include "planet/raster/geo_tags.h"
+#include "planet/raster/height_raster.h"
+#include "planet/raster/raster_area.h"
 #include "planet/source/height_source_types.h"
 #include "planet/sphere/cube_sphere.h"
 
@@ -18,6 +20,31 @@ namespace planet {
 // Opens an image, which must show the whole planet (image_placement.h).
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
                                                const HeightSourceSettings& settings);
+
+// Opens georeferenced rasters of any projection (gdal_raster.h). path: for messages and the description; it names
+// the one file, or is the pattern that lists the files.
+Result<HeightSource> openRasterSource(const std::filesystem::path& path,
+                                      const std::vector<std::filesystem::path>& files,
+                                      const HeightSourceSettings& settings);
+
+// The areas of rasters, those with the most samples in a radian first.
+Result<std::vector<RasterArea>> openRasterAreas(const std::vector<std::filesystem::path>& files,
+                                                const HeightSourceSettings& settings);
+
+// Returns whether a path names an image of the whole planet or six cube faces.
+bool coversPlanet(const std::filesystem::path& path);
+
+// Opens a world file (world_file.h).
+Result<HeightSource> openWorld(const std::filesystem::path& path, const HeightSourceSettings& settings);
+
+// Returns whether a path has wildcards (*, ?, [a-z]) or lists files (a.tif|b.tif), and names no file itself.
+bool isFilePattern(const std::filesystem::path& path);
+// Returns the files that match a pattern, in the order of the bytes of their names; those of a list in the order of its
+// parts, each of which may be a pattern.
+std::vector<std::filesystem::path> filesOfPattern(const std::filesystem::path& pattern);
+
+// Returns whether OpenImageIO reads files with an extension such as ".tif".
+bool isImageExtension(const std::string& extension);
 
 // Six files named [name][size]_[face].[ext], in the order of allFaces; some may be missing.
 struct FaceFiles {
@@ -36,16 +63,8 @@ enum class FaceEdges : std::uint8_t { MustAgree, MayDiffer };
 Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
                                     FaceEdges edges);
 
-// Returns the conversion by the settings or, if they are unset, by the file's tags. The Error names an
-// unknown unit.
-Result<HeightConversion> conversionFor(const std::string& file, const HeightSourceSettings& settings,
-                                       SampleType type, const GeoTags& tags);
-
 // Sets stepM, minM, maxM and missingCount.
 void describeHeights(HeightSource& source, const HeightConversion& conversion,
                      const HeightStatistics& statistics);
-
-// Returns the smallest 2^n with 2^n >= count, up to 2^maxFaceCellsLog2.
-int powerOfTwoCells(double count);
 
 }  // namespace planet

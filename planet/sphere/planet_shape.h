@@ -11,6 +11,13 @@ namespace planet {
 
 inline constexpr int maxFaceCellsLog2 = 22;  // grid coordinates stay exact in a float
 
+// Returns the smallest power of two of cells that is not below count, at most 2^maxFaceCellsLog2.
+constexpr int powerOfTwoCells(double count) {
+    int cells = 1;
+    while (cells < (1 << maxFaceCellsLog2) && cells < count) cells *= 2;
+    return cells;
+}
+
 inline constexpr double earthRadiusM = 6'371'000;  // mean
 
 struct PlanetShape {

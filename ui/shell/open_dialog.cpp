@@ -103,9 +103,9 @@ bool accept(OpenDialogState& state, Commands& commands) {
 }  // namespace
 
 bool mayBeOpened(const fs::path& file) {
-    static constexpr std::array<std::string_view, 12> endings = {
-        ".chk", ".tif", ".tiff", ".png", ".pgm",  ".exr",
-        ".hdr", ".jp2", ".jpg",  ".raw", ".toml", recordedFlightEnding};
+    static constexpr std::array endings = std::to_array<std::string_view>(
+        {".chk", ".tif", ".tiff", ".hgt", ".dt0", ".dt1", ".dt2", ".asc", ".nc",   ".jp2",
+         ".img", ".bil", ".png",  ".pgm", ".exr", ".hdr", ".jpg", ".raw", ".toml", recordedFlightEnding});
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
@@ -158,12 +158,12 @@ void openDialog(OpenDialogState& state, Commands& commands) {
         ImGui::TextDisabled("This folder contains no file that Worldy can open.");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    accepted |=
-        ImGui::InputTextWithHint("##path",
-                                 state.forColours ? "Path of a colour image or of one of six faces"
-                                                  : "Path of a chunk file, an elevation image or a cube face",
-                                 state.path.data(), state.path.size(),
-                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    accepted |= ImGui::InputTextWithHint(
+        "##path",
+        state.forColours ? "Path of a colour image or of one of six faces"
+                         : "Path of a chunk file, an elevation image or raster, a world file or a cube face",
+        state.path.data(), state.path.size(),
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     noteItem("Path");
     accepted |= ImGui::Button(state.forColours ? "Choose" : "Open");
     ImGui::SameLine();

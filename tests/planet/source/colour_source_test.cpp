@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "tests/planet/source/height_source_fixture.h"
 #include "tests/support/synthetic_colours.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,11 +33,6 @@ glm::vec3 colourAt(const ColourSource& source, const Geographic& place) {
     std::vector<glm::vec3> out(1);
     EXPECT_TRUE(source.sample({point.face, cells, at(point.u), at(point.v), 1, 1}, out));
     return out[0];
-}
-
-std::string colourErrorOf(const std::filesystem::path& path) {
-    const Result<ColourSource> source = openColourSource(path);
-    return source ? "opened" : source.error().message;
 }
 
 TEST(ColourSource, IntegersAreSrgbAndFloatsAreLinearLight) {

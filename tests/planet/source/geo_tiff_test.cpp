@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "planet/source/colour_source.h"
-#include "planet/source/image_placement.h"
+#include "planet/raster/image_placement.h"
 #include "tests/planet/source/height_source_fixture.h"
 
 namespace planet {
@@ -86,8 +86,8 @@ void writeGeoTiff(const std::filesystem::path& path, const GeoTiff& tiff, const 
     TIFFSetField(out, TIFFTAG_IMAGELENGTH, tiff.height);
     TIFFSetField(out, TIFFTAG_BITSPERSAMPLE, static_cast<int>(8 * sizeof(T)));
     TIFFSetField(out, TIFFTAG_SAMPLESPERPIXEL, 1);
-    TIFFSetField(out, TIFFTAG_SAMPLEFORMAT,
-                 std::is_floating_point_v<T> ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_INT);
+    constexpr int integer = std::is_signed_v<T> ? SAMPLEFORMAT_INT : SAMPLEFORMAT_UINT;
+    TIFFSetField(out, TIFFTAG_SAMPLEFORMAT, std::is_floating_point_v<T> ? SAMPLEFORMAT_IEEEFP : integer);
     TIFFSetField(out, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     TIFFSetField(out, TIFFTAG_ROWSPERSTRIP, 16);
     const auto set = [&](std::uint32_t tag, const auto& values) {
@@ -220,41 +220,55 @@ TEST(GeoTiff, SharedEdgesAreBitIdenticalAndTilesAgreeWhereverTheImageBegins) {
     expectTilesAgree(source, 64, 8);
 }
 
-TEST(GeoTiff, RegionsAreRefusedWithWhatTheyCover) {
+TEST(GeoTiff, ColoursOfRegionsAreRefusedWithWhatTheyCover) {
     const TemporaryFolder folder;
     const HeightAt flat = [](int, int) { return 5; };
-    writeGeoTiff<std::int16_t>(folder / "region.tif", placedAt(20, 10, 10, 50, 1, pixelIsArea), flat);
-    EXPECT_THAT(errorOf(folder / "region.tif"),
+    writeGeoTiff<std::uint8_t>(folder / "region.tif", placedAt(20, 10, 10, 50, 1, pixelIsArea), flat);
+    EXPECT_THAT(colourErrorOf(folder / "region.tif"),
                 AllOf(HasSubstr("region.tif: covers longitude 10 to 30 and latitude 40 to 50 degrees"),
                       HasSubstr("expected the whole planet")));
-    writeGeoTiff<std::int16_t>(folder / "band.tif", placedAt(360, 120, -180, 60, 1, pixelIsArea), flat);
-    EXPECT_THAT(errorOf(folder / "band.tif"), HasSubstr("latitude -60 to 60"));
-    writeGeoTiff<std::int16_t>(folder / "tile.tif", placedAt(61, 61, 86, 28, 1 / 60.0, pixelIsPoint), flat);
-    EXPECT_THAT(errorOf(folder / "tile.tif"), HasSubstr("longitude 85.9917 to 87.0083"));
-    EXPECT_FALSE(openColourSource(folder / "region.tif"));
+    writeGeoTiff<std::uint8_t>(folder / "band.tif", placedAt(360, 120, -180, 60, 1, pixelIsArea), flat);
+    EXPECT_THAT(colourErrorOf(folder / "band.tif"), HasSubstr("latitude -60 to 60"));
+    writeGeoTiff<std::uint8_t>(folder / "tile.tif", placedAt(61, 61, 86, 28, 1 / 60.0, pixelIsPoint), flat);
+    EXPECT_THAT(colourErrorOf(folder / "tile.tif"), HasSubstr("longitude 85.9917 to 87.0083"));
 }
 
-TEST(GeoTiff, OtherProjectionsAndDirectionsAreRefused) {
+TEST(GeoTiff, ColoursOfOtherProjectionsAndDirectionsAreRefused) {
     const TemporaryFolder folder;
     const HeightAt flat = [](int, int) { return 5; };
     GeoTiff utm = placedAt(360, 180, 500'000, 4'600'000, 30, pixelIsArea);
     utm.keys = keysOf({projected, pixelIsArea, {3072, 0, 1, 32633}});
-    writeGeoTiff<std::int16_t>(folder / "utm.tif", utm, flat);
-    EXPECT_THAT(errorOf(folder / "utm.tif"),
+    writeGeoTiff<std::uint8_t>(folder / "utm.tif", utm, flat);
+    EXPECT_THAT(colourErrorOf(folder / "utm.tif"),
                 AllOf(HasSubstr("utm.tif: is in projected coordinates, EPSG 32633"),
                       HasSubstr("expected longitude and latitude in degrees")));
     GeoTiff southUp = placedAt(360, 180, 0, 0, 1, pixelIsArea);
     southUp.pixelScale = southUp.tiepoint = {};
     southUp.transformation = {1, 0, 0, -180, 0, 1, 0, -90, 0, 0, 0, 0, 0, 0, 0, 1};
-    writeGeoTiff<std::int16_t>(folder / "southUp.tif", southUp, flat);
-    EXPECT_THAT(errorOf(folder / "southUp.tif"), HasSubstr("expected north up"));
+    writeGeoTiff<std::uint8_t>(folder / "southUp.tif", southUp, flat);
+    EXPECT_THAT(colourErrorOf(folder / "southUp.tif"), HasSubstr("expected north up"));
     GeoTiff radians = placedAt(360, 180, -180, 90, 1, pixelIsArea);
     radians.keys = keysOf({geographic, pixelIsArea, {2054, 0, 1, 9101}});
-    writeGeoTiff<std::int16_t>(folder / "radians.tif", radians, flat);
-    EXPECT_THAT(errorOf(folder / "radians.tif"), HasSubstr("angles in the unit of EPSG 9101"));
+    writeGeoTiff<std::uint8_t>(folder / "radians.tif", radians, flat);
+    EXPECT_THAT(colourErrorOf(folder / "radians.tif"), HasSubstr("angles in the unit of EPSG 9101"));
+}
+
+TEST(GeoTiff, HeightsMayRunFromSouthToNorth) {
+    const TemporaryFolder folder;
+    GeoTiff southUp = placedAt(360, 180, 0, 0, 1, pixelIsArea);
+    southUp.pixelScale = southUp.tiepoint = {};
+    southUp.transformation = {1, 0, 0, -180, 0, 1, 0, -90, 0, 0, 0, 0, 0, 0, 0, 1};
+    writeGeoTiff<std::int16_t>(folder / "southUp.tif", southUp, [](int, int row) { return 10 * (row - 90); });
+    const HeightSource source = mustOpen(folder / "southUp.tif");
+    EXPECT_NEAR(sampledNear(source, 1 << 18, 30.5, 20), 300, 0.1);
+    EXPECT_NEAR(sampledNear(source, 1 << 18, -70.5, -120), -710, 0.1);
+}
+
+TEST(GeoTiff, PositionsThatAreNotFiniteAreRefused) {
+    const TemporaryFolder folder;
     GeoTiff endless = placedAt(360, 180, -180, 90, 1, pixelIsArea);
     endless.tiepoint[3] = std::numeric_limits<double>::infinity();
-    writeGeoTiff<std::int16_t>(folder / "endless.tif", endless, flat);
+    writeGeoTiff<std::int16_t>(folder / "endless.tif", endless, [](int, int) { return 5; });
     EXPECT_THAT(errorOf(folder / "endless.tif"), HasSubstr("numbers that are not finite"));
 }
 
@@ -266,7 +280,7 @@ TEST(GeoTiff, ATileWithoutTagsIsNotToBeCropped) {
         errorOf(folder / "tile.tif"),
         AllOf(HasSubstr("tile.tif: is 361 x 361 samples; expected an equirectangular image of the whole "
                         "planet, twice as wide as high"),
-              HasSubstr("an image of a region cannot be placed on a planet yet"), Not(HasSubstr("180"))));
+              HasSubstr("heights of a region need a coordinate reference system"), Not(HasSubstr("180"))));
 }
 
 TEST(GeoTiff, SamplesOfTheNoDataValueAreMissing) {
@@ -339,15 +353,16 @@ TEST(GeoTiff, AWorldFileBesideAnImagePlacesIt) {
     EXPECT_EQ(heightSourceFiles(folder / "from0.tif").files.size(), 2u);
     for (const char* name : {"tfw", "tifw", "wld", "TFW"}) {
         const std::filesystem::path image = folder / (std::string("region_") + name + ".tif");
-        writeGeoTiff<float>(image, bare, fieldFrom(0.5, 89.5, 1));
+        writeGeoTiff<std::uint8_t>(image, bare, [](int, int) { return 5; });
         std::filesystem::path world = image;
         world.replace_extension(name);
         std::ofstream(world) << "0.01\n0\n0\n-0.01\n7.005\n46.995\n";
-        EXPECT_THAT(errorOf(image),
+        EXPECT_THAT(errorOf(image), HasSubstr("has no coordinate reference system"));
+        EXPECT_THAT(colourErrorOf(image),
                     HasSubstr("covers longitude 7 to 10.6 and latitude 45.2 to 47 degrees by " +
                               world.filename().string()));
         std::ofstream(world) << "no numbers";
-        EXPECT_THAT(errorOf(image), HasSubstr(world.filename().string() + ": is a world file beside"));
+        EXPECT_THAT(errorOf(image), HasSubstr(world.filename().string() + ": is an ESRI world file beside"));
     }
 }
 
@@ -365,7 +380,8 @@ TEST(GeoTiff, AuxiliaryFileBesideAnImagePlacesAndScalesIt) {
     EXPECT_EQ(mustOpen(folder / "a.tif").maxM, 25);
     std::ofstream(beside)
         << "<PAMDataset><GeoTransform>  7.0, 1.0e-02, 0, 47.0, 0, -1.0e-02</GeoTransform></PAMDataset>";
-    EXPECT_THAT(errorOf(folder / "a.tif"), HasSubstr("by a.tif.aux.xml"));
+    writeGeoTiff<std::uint8_t>(folder / "a.tif", bare, flat);
+    EXPECT_THAT(colourErrorOf(folder / "a.tif"), HasSubstr("by a.tif.aux.xml"));
 }
 
 TEST(GeoTiff, WorldEquidistantCylindricalNeedsNoKeysOfItsProjection) {

@@ -16,6 +16,7 @@
 #include <tuple>
 #include <vector>
 
+#include "planet/source/colour_source.h"
 #include "planet/source/height_source.h"
 #include "tests/support/temporary_folder.h"
 
@@ -93,6 +94,11 @@ inline HeightSource mustOpen(const std::filesystem::path& path, const HeightSour
 
 inline std::string errorOf(const std::filesystem::path& path, const HeightSourceSettings& settings = {}) {
     const Result<HeightSource> source = openHeightSource(path, settings);
+    return source ? "opened" : source.error().message;
+}
+
+inline std::string colourErrorOf(const std::filesystem::path& path) {
+    const Result<ColourSource> source = openColourSource(path);
     return source ? "opened" : source.error().message;
 }
 

@@ -444,7 +444,7 @@ TEST(HeightSource, WrongShapesAreRefused) {
         errorOf(folder / "square.png"),
         AllOf(HasSubstr("is 64 x 64 samples; expected an equirectangular image of the whole planet, twice "
                         "as wide as high"),
-              HasSubstr("an image of a region cannot be placed on a planet yet")));
+              HasSubstr("heights of a region need a coordinate reference system")));
     EXPECT_THAT(errorOf(folder / "thin.png"), HasSubstr("is 1 x 1 samples"));
 }
 

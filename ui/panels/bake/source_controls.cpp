@@ -165,8 +165,12 @@ bool kindControl(bool lit, SourceEdit& edit) {
 
 bool fileControl(SourceEdit& edit) {
     constexpr const char* explanation =
-        "Path of an equirectangular elevation image, of one of six cube faces, or of their common stem; or a "
-        "terrain such as noise:ridged,seed=7.";
+        "Path of an elevation image of the whole planet, of a georeferenced raster such as a GeoTIFF or HGT, "
+        "or of "
+        "one of six cube faces or their common stem. A pattern such as tiles/*.tif names several rasters, "
+        "and a world file (.toml) lists layers. A "
+        "terrain "
+        "such as noise:ridged,seed=7 can stand here too.";
     labelledControl("File", explanation);
     const bool changed = ImGui::InputTextWithHint("##source", "Image or cube faces", edit.fileText.data(),
                                                   edit.fileText.size());

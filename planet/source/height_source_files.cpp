@@ -1,20 +1,24 @@
-// Finds the files of a cube's six faces by their names.
+// Finds the files of a source: those of a cube's six faces by their names, and those that match a pattern.
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <glob.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <fstream>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
-#include "planet/source/geo_tags.h"
+#include "planet/raster/geo_tags.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/terrain.h"
+#include "planet/source/world_file.h"
 
 namespace planet {
 
@@ -53,19 +57,8 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-// Returns whether OpenImageIO reads a format of this extension. Its list is "png:png;tiff:tif,tiff,env;...".
 bool isHeightExtension(const std::string& extension) {
-    if (extension.size() < 2) return false;
-    const std::string wanted = lowerCase(extension.substr(1));
-    if (wanted == "raw") return true;
-    static const std::string known = OIIO::get_string_attribute("extension_list");
-    for (std::size_t at = known.find(wanted); at != std::string::npos; at = known.find(wanted, at + 1)) {
-        const std::size_t end = at + wanted.size();
-        const bool starts = at > 0 && (known[at - 1] == ':' || known[at - 1] == ',');
-        const bool ends = end == known.size() || known[end] == ',' || known[end] == ';';
-        if (starts && ends) return true;
-    }
-    return false;
+    return lowerCase(extension) == ".raw" || isImageExtension(extension);
 }
 
 // Returns the extension of most faces: .raw first, then in alphabetical order. Empty if there is none.
@@ -91,6 +84,68 @@ std::string extensionOfFaces(const std::filesystem::path& folder, const std::str
 }
 
 }  // namespace
+
+bool isImageExtension(const std::string& extension) {
+    if (extension.size() < 2) return false;
+    const std::string wanted = lowerCase(extension.substr(1));
+    // The list is "png:png;tiff:tif,tiff,env;...".
+    static const std::string known = OIIO::get_string_attribute("extension_list");
+    for (std::size_t at = known.find(wanted); at != std::string::npos; at = known.find(wanted, at + 1)) {
+        const std::size_t end = at + wanted.size();
+        const bool starts = at > 0 && (known[at - 1] == ':' || known[at - 1] == ',');
+        const bool ends = end == known.size() || known[end] == ',' || known[end] == ';';
+        if (starts && ends) return true;
+    }
+    return false;
+}
+
+bool isFilePattern(const std::filesystem::path& path) {
+    std::error_code problem;
+    return path.string().find_first_of("*?[|") != std::string::npos &&
+           !std::filesystem::exists(path, problem);
+}
+
+namespace {
+
+std::vector<std::filesystem::path> filesMatching(const std::string& pattern) {
+    glob_t found{};
+    std::vector<std::filesystem::path> files;
+    if (::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
+        files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    ::globfree(&found);
+    std::error_code problem;
+    std::erase_if(files, [&](const auto& file) { return !std::filesystem::is_regular_file(file, problem); });
+    std::ranges::sort(files);
+    return files;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> filesOfPattern(const std::filesystem::path& pattern) {
+    std::vector<std::filesystem::path> files;
+    std::istringstream parts(pattern.string());
+    for (std::string part; std::getline(parts, part, '|');) {
+        std::error_code problem;
+        // The name of a file may have the letters of a pattern.
+        const bool isFile = std::filesystem::is_regular_file(part, problem);
+        const auto found = isFile ? std::vector<std::filesystem::path>{part} : filesMatching(part);
+        files.insert(files.end(), found.begin(), found.end());
+    }
+    return files;
+}
+
+bool isWorldFile(const std::filesystem::path& path) {
+    if (path.extension() != ".toml") return false;
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) return false;
+    std::ifstream stream(path);
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t first = line.find_first_not_of(" \t");
+        if (first != std::string::npos && std::string_view(line).substr(first).starts_with("[[elevation]]"))
+            return true;
+    }
+    return false;
+}
 
 std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path) {
     const std::filesystem::path folder = path.parent_path();
@@ -130,6 +185,22 @@ HeightSourceFiles terrainFiles(const std::filesystem::path& text) {
     return {std::string(kind.substr(kind.find(':') + 1)), {}};
 }
 
+// Returns a name for the files of a pattern: its letters and digits, or else its folder. "tiles/N*W123.hgt" gives
+// NW123, and "tiles/*.tif" gives tiles.
+std::string stemOfPattern(const std::filesystem::path& pattern) {
+    // A list is named after its first part.
+    if (const std::string text = pattern.string(); text.find('|') != text.npos) {
+        const std::filesystem::path first = text.substr(0, text.find('|'));
+        return isFilePattern(first) ? stemOfPattern(first) : first.stem().string();
+    }
+    std::string stem = pattern.stem().string();
+    std::erase_if(
+        stem, [](char letter) { return std::string_view("*?[]!").find(letter) != std::string_view::npos; });
+    if (!stem.empty()) return stem;
+    stem = pattern.parent_path().filename().string();
+    return stem.empty() || isFilePattern(stem) || stem.starts_with('.') ? "rasters" : stem;
+}
+
 bool terrainExists(const std::filesystem::path& text) {
     const Result<TerrainSource> terrain = terrainFromText(text);
     return terrain && (terrain->of.empty() || heightSourceExists(terrain->of));
@@ -140,16 +211,49 @@ void addSidecars(std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) {
         const std::vector<std::filesystem::path> found = sidecarsOf(file);
         sidecars.insert(sidecars.end(), found.begin(), found.end());
+        // The reference system of a raster, and the header of one without a header of its own.
+        for (const char* const extension : {".prj", ".hdr"}) {
+            std::filesystem::path beside = file;
+            beside.replace_extension(extension);
+            std::error_code problem;
+            if (beside != file && std::filesystem::is_regular_file(beside, problem))
+                sidecars.push_back(beside);
+        }
     }
     files.insert(files.end(), sidecars.begin(), sidecars.end());
 }
 
 }  // namespace
 
+namespace {
+
+// Returns the world file and those of its layers, as far as it can be read.
+HeightSourceFiles worldFiles(const std::filesystem::path& path) {
+    HeightSourceFiles found{path.stem().string(), {path}};
+    const Result<WorldFile> world = readWorldFile(path);
+    if (!world) return found;
+    for (const WorldLayer& layer : world->layers) {
+        for (const std::filesystem::path& named : layer.files) {
+            if (isWorldFile(named)) continue;
+            const HeightSourceFiles files = heightSourceFiles(named);
+            found.files.insert(found.files.end(), files.files.begin(), files.files.end());
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
 HeightSourceFiles heightSourceFiles(const std::filesystem::path& path) {
     if (isTerrainText(path)) return terrainFiles(path);
+    if (isWorldFile(path)) return worldFiles(path);
     std::error_code problem;
     HeightSourceFiles found;
+    if (isFilePattern(path)) {
+        found = {stemOfPattern(path), filesOfPattern(path)};
+        addSidecars(found.files);
+        return found;
+    }
     const std::optional<FaceFiles> faces = findFaceFiles(path);
     found.stem = faces ? faces->stem : path.stem().string();
     if (!faces) {

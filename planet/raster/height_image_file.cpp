@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "planet/base/try.h"
-#include "planet/source/height_raster.h"
+#include "planet/raster/height_raster.h"
 
 namespace planet {
 

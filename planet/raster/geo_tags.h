@@ -1,6 +1,6 @@
 // Reads the metadata of an image's samples: their placement, the value that marks missing samples, and the
 // scale from values to heights. It is in the tags of a GeoTIFF, which OpenImageIO 2.4 does not pass on, and
-// in the world file or .aux.xml next to an image. Internal to the library; any thread.
+// in the ESRI world file or .aux.xml next to an image. Internal to the library; any thread.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ struct GeoTags {
     bool operator==(const GeoTags&) const = default;
 };
 
-// Returns the tags of an image, completed from the files next to it: a world file (.tfw, .pgw, .jgw, .wld and
+// Returns the tags of an image, completed from the files next to it: an ESRI world file (.tfw, .pgw, .jgw, .wld and
 // similar) or GDAL's .aux.xml. isTiff: the file itself has tags.
 Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff);
 

@@ -10,7 +10,7 @@
 
 #include "planet/base/open_file.h"
 #include "planet/base/try.h"
-#include "planet/source/height_raster.h"
+#include "planet/raster/height_raster.h"
 
 namespace planet {
 

@@ -1,5 +1,7 @@
-#include "planet/source/height_raster.h"
+#include "planet/raster/height_raster.h"
 #include "planet/base/try.h"
+
+#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
@@ -85,8 +87,12 @@ HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<c
     return converters[static_cast<std::size_t>(conversion.type)](conversion, native, out);
 }
 
+std::size_t HeightBlockKey::Hash::operator()(const HeightBlockKey& key) const {
+    return XXH3_64bits(&key, sizeof(key));
+}
+
 Result<HeightBlockCache::Block> HeightBlockCache::get(
-    std::uint64_t key, const std::function<Result<std::vector<float>>()>& load) {
+    const HeightBlockKey& key, const std::function<Result<std::vector<float>>()>& load) {
     if (Block kept = find(key)) return kept;
     // The block is loaded without the lock. Two threads may load the same block, which is slower but correct.
     TRY_ASSIGN(auto loaded, load());
@@ -100,7 +106,7 @@ std::size_t HeightBlockCache::bytes() const {
     return bytes_;
 }
 
-HeightBlockCache::Block HeightBlockCache::find(std::uint64_t key) {
+HeightBlockCache::Block HeightBlockCache::find(const HeightBlockKey& key) {
     const std::lock_guard lock(mutex_);
     const auto found = byKey_.find(key);
     if (found == byKey_.end()) return nullptr;
@@ -108,7 +114,7 @@ HeightBlockCache::Block HeightBlockCache::find(std::uint64_t key) {
     return found->second->block;
 }
 
-void HeightBlockCache::insert(std::uint64_t key, const Block& block) {
+void HeightBlockCache::insert(const HeightBlockKey& key, const Block& block) {
     const std::size_t blockBytes = block->size() * sizeof(float);
     const std::lock_guard lock(mutex_);
     if (byKey_.contains(key) || blockBytes > maxBytes_) return;
@@ -199,9 +205,7 @@ Result<void> HeightRaster::read(const RasterRect& rect, float* out, std::size_t 
     }
     for (int blockY = rect.y / blocks_.height; blockY * blocks_.height < rect.y + rect.height; ++blockY) {
         for (int blockX = rect.x / blocks_.width; blockX * blocks_.width < rect.x + rect.width; ++blockX) {
-            const std::uint64_t key = (static_cast<std::uint64_t>(blocks_.cacheSlot) << 60) |
-                                      (static_cast<std::uint64_t>(blockY) << 30) |
-                                      static_cast<std::uint64_t>(blockX);
+            const HeightBlockKey key{blocks_.cacheSlot, blockX, blockY};
             TRY_ASSIGN(const auto block,
                        blocks_.cache->get(key, [&] { return loadBlock(blockX, blockY, nullptr); }));
             copyShared(blockRect(blockX, blockY), block->data(), rect, out, strideSamples);

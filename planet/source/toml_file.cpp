@@ -1,13 +1,12 @@
-#include "app/base/toml_file.h"
+#include "planet/source/toml_file.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace worldy {
+namespace planet {
 
 namespace {
 
@@ -17,10 +16,9 @@ std::string wanted(std::string_view kind, const NumberRange& range) {
     return fmt::format("expected {} in {}", kind, textOf(range));
 }
 
-tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, std::string_view name,
-                                    const toml::node& node, const std::string& right) {
-    return planet::badInput(
-        fmt::format("{}: {} is {}; {}", placeOf(file, node), name, shownValue(node), right));
+tl::unexpected<Error> wrong(const std::filesystem::path& file, std::string_view name, const toml::node& node,
+                            const std::string& right) {
+    return badInput(fmt::format("{}: {} is {}; {}", placeOf(file, node), name, shownValue(node), right));
 }
 
 // The parts of a dotted key become nested tables. Parsing and destroying a million of them would overflow the
@@ -48,15 +46,6 @@ std::string textOf(const NumberRange& range) {
     return fmt::format("[{}, {}]{}{}", range.min, range.max, gap, range.unit);
 }
 
-bool isUtf8(std::string_view text) {
-    try {
-        nlohmann::json(text).dump();  // throws on text that is not UTF-8
-        return true;
-    } catch (const nlohmann::json::exception&) {
-        return false;
-    }
-}
-
 std::string shownValue(const toml::node& node) {
     std::ostringstream text;
     node.visit([&](const auto& value) { text << value; });
@@ -68,39 +57,38 @@ std::string placeOf(const std::filesystem::path& file, const toml::node& node) {
     return fmt::format("{}: line {}", file.string(), node.source().begin.line);
 }
 
-planet::Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
+Result<toml::table> parseTomlFile(const std::filesystem::path& path) {
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status)) {
-        return planet::ioError(fmt::format("{}: no such file; expected a TOML file", path.string()));
+        return ioError(fmt::format("{}: no such file; expected a TOML file", path.string()));
     }
     if (const std::uintmax_t bytes = std::filesystem::file_size(path, status);
         !status && bytes > mostTomlBytes) {
-        return planet::badInput(fmt::format("{}: is {} bytes large; expected at most {} for a TOML file",
-                                            path.string(), bytes, mostTomlBytes));
+        return badInput(fmt::format("{}: is {} bytes large; expected at most {} for a TOML file",
+                                    path.string(), bytes, mostTomlBytes));
     }
     std::ifstream stream(path, std::ios::binary);
     std::stringstream text;
     text << stream.rdbuf();
-    if (!stream)
-        return planet::ioError(fmt::format("{}: cannot be read; expected a readable file", path.string()));
+    if (!stream) return ioError(fmt::format("{}: cannot be read; expected a readable file", path.string()));
     return parseTomlText(text.str(), path);
 }
 
-planet::Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place) {
+Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place) {
     if (const std::size_t line = lineOfEndlessKey(text); line > 0) {
-        return planet::badInput(fmt::format("{}: line {}: has more than {} dots; expected several lines",
-                                            place.string(), line, mostDotsALine));
+        return badInput(fmt::format("{}: line {}: has more than {} dots; expected several lines",
+                                    place.string(), line, mostDotsALine));
     }
     try {
         return toml::parse(text, place.string());
     } catch (const toml::parse_error& error) {
-        return planet::badInput(fmt::format("{}: line {}: not TOML: {}; expected the syntax of toml.io",
-                                            place.string(), error.source().begin.line, error.description()));
+        return badInput(fmt::format("{}: line {}: not TOML: {}; expected the syntax of toml.io",
+                                    place.string(), error.source().begin.line, error.description()));
     }
 }
 
-planet::Result<double> readNumber(const std::filesystem::path& file, std::string_view name,
-                                  const toml::node& node, const NumberRange& range) {
+Result<double> readNumber(const std::filesystem::path& file, std::string_view name, const toml::node& node,
+                          const NumberRange& range) {
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value) || *value < range.min || *value > range.max) {
         return wrong(file, name, node, wanted("a number", range));
@@ -108,8 +96,8 @@ planet::Result<double> readNumber(const std::filesystem::path& file, std::string
     return *value;
 }
 
-planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std::string_view name,
-                                         const toml::node& node, const NumberRange& range) {
+Result<std::int64_t> readInteger(const std::filesystem::path& file, std::string_view name,
+                                 const toml::node& node, const NumberRange& range) {
     const std::optional<std::int64_t> value = node.value_exact<std::int64_t>();
     if (!value || static_cast<double>(*value) < range.min || static_cast<double>(*value) > range.max) {
         return wrong(file, name, node, wanted("an integer", range));
@@ -117,18 +105,17 @@ planet::Result<std::int64_t> readInteger(const std::filesystem::path& file, std:
     return *value;
 }
 
-planet::Result<bool> readBool(const std::filesystem::path& file, std::string_view name,
-                              const toml::node& node) {
+Result<bool> readBool(const std::filesystem::path& file, std::string_view name, const toml::node& node) {
     const std::optional<bool> value = node.value_exact<bool>();
     if (!value) return wrong(file, name, node, "expected true or false");
     return *value;
 }
 
-planet::Result<std::string> readText(const std::filesystem::path& file, std::string_view name,
-                                     const toml::node& node) {
+Result<std::string> readText(const std::filesystem::path& file, std::string_view name,
+                             const toml::node& node) {
     const std::optional<std::string> value = node.value_exact<std::string>();
     if (!value) return wrong(file, name, node, "expected a text in quotes");
     return *value;
 }
 
-}  // namespace worldy
+}  // namespace planet

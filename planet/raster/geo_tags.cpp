@@ -1,4 +1,4 @@
-#include "planet/source/geo_tags.h"
+#include "planet/raster/geo_tags.h"
 #include "planet/base/try.h"
 
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include <numbers>
 #include <span>
 #include <sstream>
+#include <string>
 #include <vector>
 
 namespace planet {
@@ -69,8 +70,15 @@ TiffPtr openTiff(const std::filesystem::path& path) {
 template <class T>
 std::span<const T> valuesOf(TIFF* tiff, std::uint32_t tag, TIFFDataType type) {
     const TIFFField* const field = TIFFFindField(tiff, tag, TIFF_ANY);
-    if (!field || TIFFFieldDataType(field) != type || !TIFFFieldPassCount(field)) return {};
+    if (!field || TIFFFieldDataType(field) != type) return {};
     const void* data = nullptr;
+    if (!TIFFFieldPassCount(field)) {
+        // Once GDAL is in use, libtiff knows the tags with a text, which it returns without their length.
+        const char* text = nullptr;
+        if (type != TIFF_ASCII || !TIFFGetField(tiff, tag, &text) || !text) return {};
+        data = text;
+        return {static_cast<const T*>(data), std::char_traits<char>::length(text)};
+    }
     if (TIFFFieldReadCount(field) == TIFF_VARIABLE2) {
         std::uint32_t count = 0;
         if (!TIFFGetField(tiff, tag, &count, &data) || !data) return {};
@@ -249,7 +257,7 @@ std::string contentOf(const std::filesystem::path& file) {
     return content;
 }
 
-// Returns the world file next to an image. Its extension is the first and last letters of the image's and a
+// Returns the ESRI world file next to an image. Its extension is the first and last letters of the image's and a
 // w, the whole extension and a w, or wld.
 std::filesystem::path worldFileBeside(const std::filesystem::path& image) {
     std::string extension = image.extension().string();
@@ -279,7 +287,7 @@ std::vector<double> numbersIn(std::string text) {
     return numbers;
 }
 
-// Reads the six lines of a world file: x by column, y by column, x by row, y by row, and the first sample's
+// Reads the six lines of an ESRI world file: x by column, y by column, x by row, y by row, and the first sample's
 // centre.
 Result<std::optional<GeoPlacement>> worldFilePlacement(const std::filesystem::path& image) {
     const std::filesystem::path file = worldFileBeside(image);
@@ -292,7 +300,7 @@ Result<std::optional<GeoPlacement>> worldFilePlacement(const std::filesystem::pa
     }
     if (n.size() != 6 || !isFinite(placement)) {
         return badInput(
-            fmt::format("{}: is a world file beside {} without six numbers; expected a world file, "
+            fmt::format("{}: is an ESRI world file beside {} without six numbers; expected six, "
                         "or none",
                         file.string(), image.filename().string()));
     }

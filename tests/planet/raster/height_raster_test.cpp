@@ -1,4 +1,4 @@
-#include "planet/source/height_raster.h"
+#include "planet/raster/height_raster.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,18 @@
 namespace planet {
 namespace {
 
+HeightBlockKey keyOf(int block) {
+    return {1, block, 2};
+}
+
 Result<std::vector<float>> blockOf(float value) {
     return std::vector<float>(256, value);  // 1 kB
 }
 
 TEST(HeightRaster, CacheNeverHoldsMoreThanItsLimit) {
     HeightBlockCache cache(10 << 10);
-    for (std::uint64_t key = 0; key < 100; ++key) {
-        const auto block = cache.get(key, [&] { return blockOf(static_cast<float>(key)); });
+    for (int key = 0; key < 100; ++key) {
+        const auto block = cache.get(keyOf(key), [&] { return blockOf(static_cast<float>(key)); });
         ASSERT_TRUE(block);
         EXPECT_EQ((**block)[0], static_cast<float>(key));
         EXPECT_LE(cache.bytes(), std::size_t{10} << 10);
@@ -25,16 +29,27 @@ TEST(HeightRaster, CacheNeverHoldsMoreThanItsLimit) {
     EXPECT_EQ(cache.bytes(), std::size_t{10} << 10);
 }
 
+TEST(HeightRaster, CacheTellsRastersAndBlocksApart) {
+    HeightBlockCache cache(64 << 10);
+    float next = 0;
+    for (const HeightBlockKey& key : {HeightBlockKey{1, 2, 3}, {2, 2, 3}, {1, 3, 2}, {1, 3, 3}}) {
+        const auto block = cache.get(key, [&] { return blockOf(++next); });
+        ASSERT_TRUE(block);
+        EXPECT_EQ((**block)[0], next);
+    }
+    EXPECT_EQ(next, 4);
+}
+
 TEST(HeightRaster, CacheKeepsWhatWasUsedLast) {
     HeightBlockCache cache(4 << 10);
     int loads = 0;
-    const auto get = [&](std::uint64_t key) {
-        return cache.get(key, [&] {
+    const auto get = [&](int key) {
+        return cache.get(keyOf(key), [&] {
             ++loads;
             return blockOf(0);
         });
     };
-    for (const std::uint64_t key : {1u, 2u, 3u, 4u}) EXPECT_TRUE(get(key));
+    for (const int key : {1, 2, 3, 4}) EXPECT_TRUE(get(key));
     EXPECT_TRUE(get(1));
     EXPECT_TRUE(get(5));  // drops 2
     EXPECT_EQ(loads, 5);
@@ -46,21 +61,22 @@ TEST(HeightRaster, CacheKeepsWhatWasUsedLast) {
 
 TEST(HeightRaster, CacheHandsOnWhyALoadFailedAndTriesAgain) {
     HeightBlockCache cache(4 << 10);
-    const auto failed = cache.get(1, []() -> Result<std::vector<float>> { return ioError("no disk"); });
+    const auto failed =
+        cache.get(keyOf(1), []() -> Result<std::vector<float>> { return ioError("no disk"); });
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().message, "no disk");
-    EXPECT_TRUE(cache.get(1, [] { return blockOf(0); }));
+    EXPECT_TRUE(cache.get(keyOf(1), [] { return blockOf(0); }));
 }
 
 TEST(HeightRaster, CacheServesSeveralThreads) {
     HeightBlockCache cache(8 << 10);
     std::atomic<int> wrong = 0;
     std::vector<std::thread> threads;
-    for (std::uint64_t thread = 0; thread < 4; ++thread) {
+    for (int thread = 0; thread < 4; ++thread) {
         threads.emplace_back([&, thread] {
-            for (std::uint64_t i = 0; i < 2000; ++i) {
-                const std::uint64_t key = (i * 7 + thread * 3) % 16;
-                const auto block = cache.get(key, [&] { return blockOf(static_cast<float>(key)); });
+            for (int i = 0; i < 2000; ++i) {
+                const int key = (i * 7 + thread * 3) % 16;
+                const auto block = cache.get(keyOf(key), [&] { return blockOf(static_cast<float>(key)); });
                 if (!block || (**block)[0] != static_cast<float>(key)) ++wrong;
             }
         });

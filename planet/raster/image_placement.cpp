@@ -1,4 +1,4 @@
-#include "planet/source/image_placement.h"
+#include "planet/raster/image_placement.h"
 #include "planet/base/try.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,8 @@ constexpr double poleToPoleDeg = 180;
 constexpr double stepTolerance = 1e-4;
 
 constexpr const char* regionHint =
-    "an image of a region cannot be placed on a planet yet, so merge it into one of the whole planet first";
+    "heights of a region need a coordinate reference system, as in a GeoTIFF, and colours must cover the "
+    "whole planet";
 
 // The extent of an image, degrees.
 struct ImageExtent {

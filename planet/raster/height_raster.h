@@ -18,7 +18,8 @@
 
 #include "planet/base/file_calls.h"
 #include "planet/base/result.h"
-#include "planet/source/geo_tags.h"
+#include "planet/raster/geo_tags.h"
+#include "planet/raster/height_source_settings.h"
 
 namespace planet {
 
@@ -37,6 +38,11 @@ struct HeightConversion {
     float fillM = 0;                    // height of missing samples, metres
 };
 
+// Returns the conversion by the settings or, if they are unset, by the file's tags. The Error names an
+// unknown unit.
+Result<HeightConversion> conversionFor(const std::string& file, const HeightSourceSettings& settings,
+                                       SampleType type, const GeoTags& tags);
+
 struct HeightStatistics {
     float minM = std::numeric_limits<float>::infinity();  // of all samples, including filled ones
     float maxM = -std::numeric_limits<float>::infinity();
@@ -48,6 +54,18 @@ void addTo(HeightStatistics& sum, const HeightStatistics& part);
 HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<const std::byte> native,
                                  std::span<float> out);
 
+// A block of one of the rasters that share a cache.
+struct HeightBlockKey {
+    std::uint64_t raster = 0;
+    std::int32_t x = 0;  // counted in blocks
+    std::int32_t y = 0;
+
+    bool operator==(const HeightBlockKey&) const = default;
+    struct Hash {
+        std::size_t operator()(const HeightBlockKey& key) const;
+    };
+};
+
 // Caches the most recently used blocks: at most maxBytes besides those in use. Thread-safe.
 class HeightBlockCache {
 public:
@@ -56,21 +74,21 @@ public:
     explicit HeightBlockCache(std::size_t maxBytes) : maxBytes_(maxBytes) {}
 
     // Returns the block of a key; calls load() if it is not cached.
-    Result<Block> get(std::uint64_t key, const std::function<Result<std::vector<float>>()>& load);
+    Result<Block> get(const HeightBlockKey& key, const std::function<Result<std::vector<float>>()>& load);
     std::size_t bytes() const;  // currently cached
 
 private:
     struct Entry {
-        std::uint64_t key;
+        HeightBlockKey key;
         Block block;
     };
-    Block find(std::uint64_t key);
-    void insert(std::uint64_t key, const Block& block);
+    Block find(const HeightBlockKey& key);
+    void insert(const HeightBlockKey& key, const Block& block);
 
     const std::size_t maxBytes_;
     mutable std::mutex mutex_;
     std::list<Entry> entries_;  // most recently used first
-    std::unordered_map<std::uint64_t, std::list<Entry>::iterator> byKey_;
+    std::unordered_map<HeightBlockKey, std::list<Entry>::iterator, HeightBlockKey::Hash> byKey_;
     std::size_t bytes_ = 0;
 };
 
@@ -90,7 +108,7 @@ public:
         // Fills a block's native samples, row-major; samples beyond the edges may have any value.
         std::function<Result<void>(int blockX, int blockY, std::span<std::byte> native)> read;
         std::shared_ptr<HeightBlockCache> cache;
-        int cacheSlot = 0;  // distinguishes rasters that share a cache, [0, 8)
+        std::uint64_t cacheSlot = 0;  // distinguishes rasters that share a cache
     };
 
     HeightRaster() = default;
@@ -165,7 +183,7 @@ private:
 
 struct RasterMemory {
     std::shared_ptr<HeightBlockCache> cache;
-    int cacheSlot = 0;
+    std::uint64_t cacheSlot = 0;      // distinguishes rasters that share the cache
     std::size_t wholeLimitBytes = 0;  // an untiled image up to this size is kept whole
 };
 

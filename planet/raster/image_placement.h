@@ -5,7 +5,7 @@
 #include <string>
 
 #include "planet/base/result.h"
-#include "planet/source/geo_tags.h"
+#include "planet/raster/geo_tags.h"
 
 namespace planet {
 

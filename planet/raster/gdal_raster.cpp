@@ -1,0 +1,364 @@
+#include "planet/raster/gdal_raster.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "planet/base/try.h"
+#include "planet/raster/geo_tags.h"
+#include "planet/raster/height_raster.h"
+
+namespace planet {
+
+namespace {
+
+constexpr int mostRasterSide = 1 << 22;                // samples
+constexpr int leastBlockSide = 128;                    // samples; smaller blocks of a file are read together
+constexpr std::int64_t mostBlockSamples = 16LL << 20;  // a larger block could not be read in bounded memory
+constexpr std::size_t mostIdle = 64;                   // data sets
+constexpr int gdalCacheBytes = 16 << 20;               // heights are cached after conversion
+
+constexpr std::array<const char*, 15> formats = {"GTiff",  "SRTMHGT",     "DTED", "AAIGrid", "GRASSASCIIGrid",
+                                                 "netCDF", "JP2OpenJPEG", "ENVI", "EHdr",    "HFA",
+                                                 "BIL",    "USGSDEM",     "PNG",  "JPEG",    nullptr};
+
+struct DataSetCloser {
+    void operator()(GDALDatasetH dataSet) const { GDALClose(dataSet); }
+};
+using DataSet = std::unique_ptr<void, DataSetCloser>;
+
+struct SpatialReferenceReleaser {
+    void operator()(OGRSpatialReferenceH reference) const { OSRRelease(reference); }
+};
+using SpatialReference = std::unique_ptr<void, SpatialReferenceReleaser>;
+
+// Keeps GDAL's messages of this thread from the terminal while it exists; the last one can be asked for.
+struct QuietErrors {
+    QuietErrors() {
+        CPLPushErrorHandler(CPLQuietErrorHandler);
+        CPLErrorReset();
+    }
+    ~QuietErrors() { CPLPopErrorHandler(); }
+    QuietErrors(const QuietErrors&) = delete;
+    QuietErrors& operator=(const QuietErrors&) = delete;
+    static std::string lastMessage() {
+        const std::string message = CPLGetLastErrorMsg();
+        return message.empty() ? "truncated or damaged" : message;
+    }
+};
+
+// Makes GDAL initialise its reader of TIFF now, and puts libtiff's message handlers back that it replaces: without
+// its own, OpenImageIO does not notice a truncated file.
+void registerFormats() {
+    const TIFFErrorHandler errors = TIFFSetErrorHandler(nullptr);
+    const TIFFErrorHandler warnings = TIFFSetWarningHandler(nullptr);
+    GDALAllRegister();
+    constexpr const char* inMemory = "/vsimem/worldy-first.tif";
+    GDALClose(GDALCreate(GDALGetDriverByName("GTiff"), inMemory, 1, 1, 1, GDT_Byte, nullptr));
+    VSIUnlink(inMemory);
+    TIFFSetErrorHandler(errors);
+    TIFFSetWarningHandler(warnings);
+}
+
+void prepareGdal() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        const QuietErrors quiet;
+        registerFormats();
+        GDALSetCacheMax(gdalCacheBytes);
+        // GDAL would list the folder of each file, which takes long for a folder of ten thousand tiles.
+        CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
+        // A truncated file is an error instead of zeros.
+        CPLSetConfigOption("GTIFF_IGNORE_READ_ERRORS", "FALSE");
+        CPLSetConfigOption("PROJ_NETWORK", "OFF");
+    });
+}
+
+DataSet openDataSet(const std::filesystem::path& path) {
+    prepareGdal();
+    return DataSet(
+        GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, formats.data(), nullptr, nullptr));
+}
+
+// The data sets that no thread is reading, the most recently used first.
+class IdleDataSets {
+public:
+    DataSet borrow(const GdalRaster* raster) {
+        {
+            const std::lock_guard lock(mutex_);
+            const auto found = std::ranges::find(idle_, raster, &Entry::raster);
+            if (found != idle_.end()) {
+                DataSet dataSet = std::move(found->dataSet);
+                idle_.erase(found);
+                return dataSet;
+            }
+        }
+        return openDataSet(raster->path());
+    }
+    void giveBack(const GdalRaster* raster, DataSet dataSet) {
+        DataSet oldest;  // closed without the lock
+        const std::lock_guard lock(mutex_);
+        idle_.push_front({raster, std::move(dataSet)});
+        if (idle_.size() <= mostIdle) return;
+        oldest = std::move(idle_.back().dataSet);
+        idle_.pop_back();
+    }
+    void close(const GdalRaster* raster) {
+        const std::lock_guard lock(mutex_);
+        idle_.remove_if([&](const Entry& entry) { return entry.raster == raster; });
+    }
+
+private:
+    struct Entry {
+        const GdalRaster* raster;
+        DataSet dataSet;
+    };
+    std::mutex mutex_;
+    std::list<Entry> idle_;
+};
+
+IdleDataSets& idleDataSets() {
+    static IdleDataSets sets;
+    return sets;
+}
+
+std::string typeNameOf(GDALDataType type) {
+    switch (type) {
+        case GDT_Byte:
+            return "uint8";
+        case GDT_UInt16:
+            return "uint16";
+        case GDT_Int16:
+            return "int16";
+        case GDT_UInt32:
+            return "uint32";
+        case GDT_Int32:
+            return "int32";
+        case GDT_Float32:
+            return "float";
+        case GDT_Float64:
+            return "double";
+        default:
+            return {};
+    }
+}
+
+bool isInteger(GDALDataType type) {
+    return type != GDT_Float32 && type != GDT_Float64;
+}
+
+GeoTags bandTags(GDALRasterBandH band) {
+    GeoTags tags;
+    int given = 0;
+    const double noData = GDALGetRasterNoDataValue(band, &given);
+    if (given != 0 && !std::isnan(noData)) tags.noDataValue = noData;
+    const double scale = GDALGetRasterScale(band, &given);
+    if (given != 0) tags.scale = scale;
+    const double offset = GDALGetRasterOffset(band, &given);
+    if (given != 0) tags.offset = offset;
+    tags.unit = GDALGetRasterUnitType(band);
+    return tags;
+}
+
+Result<void> setPlace(const std::string& file, GDALDatasetH dataSet, RasterLayout& layout) {
+    std::array<double, 6> corner{};
+    if (GDALGetGeoTransform(dataSet, corner.data()) != CE_None) {
+        const char* const instead =
+            GDALGetGCPCount(dataSet) > 0 ? "has only ground control points" : "has no position";
+        return badInput(
+            fmt::format("{}: {}; expected a raster with the coordinates of its samples, such as a GeoTIFF",
+                        file, instead));
+    }
+    // GDAL's coordinates count from the corner of the first sample.
+    layout.x = {corner[0] + (corner[1] + corner[2]) / 2, corner[1], corner[2]};
+    layout.y = {corner[3] + (corner[4] + corner[5]) / 2, corner[4], corner[5]};
+    const bool finite = std::ranges::all_of(corner, [](double n) { return std::isfinite(n); });
+    const double area = corner[1] * corner[5] - corner[2] * corner[4];
+    if (finite && area != 0 && std::isfinite(1 / area)) return {};
+    return badInput(
+        fmt::format("{}: the coordinates of its samples lie on one line or are not finite; expected a "
+                    "raster with an area",
+                    file));
+}
+
+Result<void> setReferenceSystem(const std::string& file, GDALDatasetH dataSet, RasterLayout& layout) {
+    const OGRSpatialReferenceH found = GDALGetSpatialRef(dataSet);
+    if (!found || OSRIsLocal(found) != 0) {
+        return badInput(
+            fmt::format("{}: has no coordinate reference system; expected one in the file or in a .prj file "
+                        "beside it",
+                        file));
+    }
+    const SpatialReference reference(OSRClone(found));
+    if (OSRIsCompound(reference.get()) != 0) OSRStripVertical(reference.get());
+    const char* const name = OSRGetName(reference.get());
+    layout.crsName = name ? name : "unnamed";
+    char* text = nullptr;
+    const std::array<const char*, 2> options = {"FORMAT=WKT2_2018", nullptr};
+    const OGRErr failed = OSRExportToWktEx(reference.get(), &text, options.data());
+    if (text) layout.crs = text;
+    CPLFree(text);
+    if (failed == OGRERR_NONE && !layout.crs.empty()) return {};
+    return badInput(
+        fmt::format("{}: its coordinate reference system, {}, cannot be understood; expected one that PROJ "
+                    "knows",
+                    file, layout.crsName));
+}
+
+// Returns a multiple of a file's block that has at least the smallest side.
+int readTogether(int block, int size) {
+    const int several = (leastBlockSide + block - 1) / block * block;
+    return std::min(several, size);
+}
+
+Result<void> setBlocks(const std::string& file, GDALRasterBandH band, RasterLayout& layout) {
+    int width = 0;
+    int height = 0;
+    GDALGetBlockSize(band, &width, &height);
+    layout.blockWidth = readTogether(std::max(width, 1), layout.width);
+    layout.blockHeight = readTogether(std::max(height, 1), layout.height);
+    const std::int64_t samples = std::int64_t{layout.blockWidth} * layout.blockHeight;
+    if (samples <= mostBlockSamples) return {};
+    return badInput(fmt::format("{}: has blocks of {} x {} samples; expected at most {} samples in a block",
+                                file, width, height, mostBlockSamples));
+}
+
+Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatasetH dataSet,
+                                    const HeightSourceSettings& settings) {
+    const std::string file = path.string();
+    RasterLayout layout;
+    layout.width = GDALGetRasterXSize(dataSet);
+    layout.height = GDALGetRasterYSize(dataSet);
+    const int bands = GDALGetRasterCount(dataSet);
+    if (bands < 1) {
+        return badInput(
+            fmt::format("{}: holds no single raster, but a group of them; expected a file with one band of "
+                        "heights",
+                        file));
+    }
+    if (layout.width < 1 || layout.height < 1 || layout.width > mostRasterSide ||
+        layout.height > mostRasterSide) {
+        return badInput(fmt::format("{}: is {} x {} samples; expected [1, {}] per side", file, layout.width,
+                                    layout.height, mostRasterSide));
+    }
+    GDALRasterBandH const band = GDALGetRasterBand(dataSet, 1);
+    const bool alphaFollows =
+        bands == 2 && GDALGetRasterColorInterpretation(GDALGetRasterBand(dataSet, 2)) == GCI_AlphaBand;
+    if (bands > 1 && !alphaFollows) {
+        return badInput(fmt::format("{}: has {} bands; expected one band of heights", file, bands));
+    }
+    if (GDALGetRasterColorTable(band)) {
+        return badInput(fmt::format("{}: holds indices of a colour table; expected heights", file));
+    }
+    const GDALDataType type = GDALGetRasterDataType(band);
+    layout.typeName = typeNameOf(type);
+    if (layout.typeName.empty()) {
+        return badInput(
+            fmt::format("{}: has samples of type {}; expected integers of 8 to 32 bits, float or double",
+                        file, GDALGetDataTypeName(type)));
+    }
+    TRY(setPlace(file, dataSet, layout));
+    TRY(setReferenceSystem(file, dataSet, layout));
+    TRY(setBlocks(file, band, layout));
+    TRY_ASSIGN(layout.conversion, conversionFor(file, settings, SampleType::Float, bandTags(band)));
+    layout.conversion.fillM = std::numeric_limits<float>::quiet_NaN();
+    if (isInteger(type)) layout.stepM = std::abs(layout.conversion.metresPerUnit);
+    return layout;
+}
+
+bool hasMaskBand(GDALDatasetH dataSet) {
+    const int flags = GDALGetMaskFlags(GDALGetRasterBand(dataSet, 1));
+    return (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
+}
+
+}  // namespace
+
+bool isGdalRaster(const std::filesystem::path& path) {
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) return false;
+    prepareGdal();
+    const QuietErrors quiet;
+    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, formats.data(), nullptr) != nullptr;
+}
+
+Result<std::shared_ptr<const GdalRaster>> GdalRaster::open(const std::filesystem::path& path,
+                                                           const HeightSourceSettings& settings) {
+    std::error_code problem;
+    if (!std::filesystem::exists(path, problem))
+        return ioError(fmt::format("{}: no such file", path.string()));
+    if (!std::filesystem::is_regular_file(path, problem)) {
+        return badInput(fmt::format("{}: is not a file", path.string()));
+    }
+    const QuietErrors quiet;
+    DataSet dataSet = openDataSet(path);
+    if (!dataSet) {
+        return badInput(fmt::format(
+            "{}: is not a readable raster ({}); expected GeoTIFF, HGT, DTED, an ASCII grid, netCDF, "
+            "JPEG 2000, ENVI or a similar format",
+            path.string(), QuietErrors::lastMessage()));
+    }
+    const std::shared_ptr<GdalRaster> raster(new GdalRaster);
+    raster->path_ = path;
+    TRY_ASSIGN(raster->layout_, rasterLayoutOf(path, dataSet.get(), settings));
+    raster->hasMask_ = hasMaskBand(dataSet.get());
+    idleDataSets().giveBack(raster.get(), std::move(dataSet));
+    return raster;
+}
+
+GdalRaster::~GdalRaster() {
+    idleDataSets().close(this);
+}
+
+Result<std::vector<float>> GdalRaster::readBlock(int blockX, int blockY) const {
+    const int x = blockX * layout_.blockWidth;
+    const int y = blockY * layout_.blockHeight;
+    const int width = std::min(layout_.blockWidth, layout_.width - x);
+    const int height = std::min(layout_.blockHeight, layout_.height - y);
+    const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const QuietErrors quiet;
+    const auto unreadable = [&] {
+        return ioError(fmt::format("{}: the block at column {}, row {} cannot be read: {}", path_.string(), x,
+                                   y, QuietErrors::lastMessage()));
+    };
+    DataSet dataSet = idleDataSets().borrow(this);
+    if (!dataSet) return unreadable();
+    GDALRasterBandH const band = GDALGetRasterBand(dataSet.get(), 1);
+    // A file that was replaced by a smaller one since it was opened must not be read beyond its end.
+    if (!band || GDALGetRasterXSize(dataSet.get()) != layout_.width ||
+        GDALGetRasterYSize(dataSet.get()) != layout_.height) {
+        return ioError(fmt::format("{}: was replaced while it was being read", path_.string()));
+    }
+    std::vector<float> values(count);
+    if (GDALRasterIO(band, GF_Read, x, y, width, height, values.data(), width, height, GDT_Float32, 0, 0) !=
+        CE_None)
+        return unreadable();
+    std::vector<std::uint8_t> mask;
+    if (hasMask_) {
+        mask.resize(count);
+        if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, x, y, width, height, mask.data(), width, height,
+                         GDT_Byte, 0, 0) != CE_None)
+            return unreadable();
+    }
+    idleDataSets().giveBack(this, std::move(dataSet));
+    std::vector<float> heights(count);
+    convertToMetres(layout_.conversion, std::as_bytes(std::span(values)), heights);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (mask[i] == 0) heights[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+    return heights;
+}
+
+}  // namespace planet

@@ -1,0 +1,34 @@
+// How the values of a source's files become heights.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "planet/base/file_calls.h"
+
+namespace planet {
+
+struct HeightSourceSettings {
+    // height = offsetM + metresPerUnit * value; 0 and 1 if neither the settings nor the file say otherwise.
+    // metresPerUnit, not 0, overrides the file's scale, offset and unit; offsetM, metres, overrides only its
+    // offset.
+    std::optional<double> metresPerUnit;
+    std::optional<double> offsetM;
+    // The value that means "missing", instead of the file's GDAL_NODATA; NaN and infinities always do.
+    std::optional<double> noDataValue;
+    double fillM = 0;            // height of missing samples, metres
+    std::optional<int> rawSize;  // raw faces: samples per side, if the name does not say
+    std::optional<int> rawBits;  // raw faces: 8 or 16, if the file's length does not say
+    bool rawSigned = false;      // raw faces of 16 bits: signed steps
+    bool rawBigEndian = false;   // raw faces of 16 bits
+    // [0, 2]: the source returns this channel of a colour image instead of heights, as linear light in [0,
+    // 1]. Integers are read as sRGB, floats as linear light. A grey image is the same in all three channels;
+    // alpha is ignored.
+    std::optional<int> colourChannel;
+    // Memory limit for heights, bytes; each takes 4 bytes. A larger source is read in blocks; if its file has
+    // no blocks, such as a PNG, it is copied once to a temporary file.
+    std::size_t cacheBytes = 48u << 20;
+    FileCalls fileCalls = systemFileCalls();  // for raw faces and the temporary file
+};
+
+}  // namespace planet

@@ -1,0 +1,281 @@
+#include "planet/raster/raster_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "planet/base/parallel.h"
+#include "planet/base/try.h"
+#include "planet/sphere/cube_sphere.h"
+#include "planet/sphere/planet_shape.h"
+
+namespace planet {
+
+namespace {
+
+constexpr int cellSamples = 32;    // samples along a square of the survey
+constexpr int latticeSamples = 8;  // samples between the places that are converted
+constexpr int cellSamplesLog2 = 5;
+constexpr std::int64_t capPlaces = 32;  // places along a side of a tile that its cap is made from
+constexpr double differenceRad = 1e-6;
+
+// A block of a tile that is surveyed by one call.
+struct SurveyBlock {
+    std::size_t tile = 0;
+    int x = 0;
+    int y = 0;
+};
+
+std::vector<SurveyBlock> blocksOf(const RasterMosaic& mosaic) {
+    std::vector<SurveyBlock> blocks;
+    for (std::size_t tile = 0; tile < mosaic.tiles().size(); ++tile) {
+        const RasterLayout& layout = mosaic.tiles()[tile].raster->layout();
+        for (int y = 0; y * layout.blockHeight < layout.height; ++y) {
+            for (int x = 0; x * layout.blockWidth < layout.width; ++x) blocks.push_back({tile, x, y});
+        }
+    }
+    return blocks;
+}
+
+// Positions on the grid, and what they become on the planet.
+struct Lattice {
+    std::vector<double> columns;
+    std::vector<double> rows;
+
+    // Adds a lattice of positions over a rectangle, whose outer positions lie on the samples' outer edges.
+    void add(const GridRect& rect, std::int64_t samplesApart) {
+        const std::int64_t across = (rect.columns + samplesApart - 1) / samplesApart;
+        const std::int64_t down = (rect.rows + samplesApart - 1) / samplesApart;
+        const auto between = [](std::int64_t first, std::int64_t count, std::int64_t i, std::int64_t parts) {
+            return static_cast<double>(first) - 0.5 +
+                   static_cast<double>(count * i) / static_cast<double>(parts);
+        };
+        for (std::int64_t j = 0; j <= down; ++j) {
+            for (std::int64_t i = 0; i <= across; ++i) {
+                columns.push_back(between(rect.column, rect.columns, i, across));
+                rows.push_back(between(rect.row, rect.rows, j, down));
+            }
+        }
+    }
+
+    // Returns the directions of the positions that the projection reaches.
+    std::vector<glm::dvec3> directions(const RasterPlacement& placement) const {
+        std::vector<double> longitudes(columns.size());
+        std::vector<double> latitudes(columns.size());
+        placement.toPlanet(columns, rows, longitudes, latitudes);
+        std::vector<glm::dvec3> found;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            // The outer edge of an image of the whole planet can lie beyond a pole.
+            const double latitude = std::clamp(latitudes[i], -std::numbers::pi / 2, std::numbers::pi / 2);
+            if (std::isfinite(longitudes[i]) && std::isfinite(latitudes[i]))
+                found.push_back(directionFromGeographic({latitude, longitudes[i]}));
+        }
+        return found;
+    }
+};
+
+std::uint64_t squareAt(const glm::dvec3& direction, int level) {
+    return indexInQuadtreeOrder(chunkAt(facePointFromDirection(direction), level));
+}
+
+void sortUnique(std::vector<std::uint64_t>& values) {
+    std::ranges::sort(values);
+    values.erase(std::ranges::unique(values).begin(), values.end());
+}
+
+// The statistics of a block, and lattices over its cells that hold a height.
+struct BlockSurvey {
+    HeightStatistics statistics;
+    Lattice lattice;
+};
+
+BlockSurvey surveyBlock(const GridRect& rect, std::span<const float> heights) {
+    BlockSurvey survey;
+    const auto width = static_cast<int>(rect.columns);
+    const auto height = static_cast<int>(rect.rows);
+    for (int top = 0; top < height; top += cellSamples) {
+        for (int left = 0; left < width; left += cellSamples) {
+            const int columns = std::min(cellSamples, width - left);
+            const int rows = std::min(cellSamples, height - top);
+            std::uint64_t missing = 0;
+            for (int row = top; row < top + rows; ++row) {
+                for (const float h :
+                     heights.subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                         static_cast<std::size_t>(left),
+                                     static_cast<std::size_t>(columns))) {
+                    missing += std::isnan(h) ? 1 : 0;
+                    survey.statistics.minM = std::min(survey.statistics.minM, h);  // unchanged by NaN
+                    survey.statistics.maxM = std::max(survey.statistics.maxM, h);
+                }
+            }
+            survey.statistics.missingCount += missing;
+            if (missing < static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows)) {
+                survey.lattice.add({rect.column + left, rect.row + top, columns, rows}, latticeSamples);
+            }
+        }
+    }
+    return survey;
+}
+
+// Returns the largest angle, in radians, that a cell of a face with one cell would cover at the scale of a place.
+double cellRadAt(const glm::dvec3& direction) {
+    constexpr double step = 1e-4;
+    const FacePoint point = facePointFromDirection(direction);
+    const double u = point.u < 0 ? point.u + step : point.u - step;
+    const double v = point.v < 0 ? point.v + step : point.v - step;
+    const glm::dvec3 here = sphereFromCube(cubePoint(point.face, point.u, point.v));
+    const double alongU = glm::length(sphereFromCube(cubePoint(point.face, u, point.v)) - here);
+    const double alongV = glm::length(sphereFromCube(cubePoint(point.face, point.u, v)) - here);
+    return 2 * std::max(alongU, alongV) / step;
+}
+
+void setResolution(RasterArea& area) {
+    Lattice middles;
+    for (const RasterMosaic::Tile& tile : area.mosaic.tiles()) {
+        middles.columns.push_back(static_cast<double>(tile.rect.column) +
+                                  static_cast<double>(tile.rect.columns - 1) / 2);
+        middles.rows.push_back(static_cast<double>(tile.rect.row) +
+                               static_cast<double>(tile.rect.rows - 1) / 2);
+    }
+    const std::vector<glm::dvec3> places = middles.directions(area.mosaic.placement());
+    const std::vector<SampleDensity> densities = densitiesAt(area.mosaic.placement(), places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto [least, most] = std::minmax(densities[i].columnsPerRad, densities[i].rowsPerRad);
+        if (!std::isfinite(most)) continue;
+        area.samplesPerRad = std::max(area.samplesPerRad, most);
+        // The axis with fewer samples has the resolution: towards the poles, columns stand closer than rows.
+        area.faceCells = std::max(area.faceCells, powerOfTwoCells(cellRadAt(places[i]) * least));
+    }
+}
+
+// Sets the cap from a lattice over each tile.
+void setCap(RasterArea& area) {
+    glm::dvec3 sum{};
+    std::vector<glm::dvec3> places;
+    double marginRad = 0;
+    for (const RasterMosaic::Tile& tile : area.mosaic.tiles()) {
+        const std::int64_t apart =
+            std::max<std::int64_t>(1, std::max(tile.rect.columns, tile.rect.rows) / capPlaces);
+        Lattice lattice;
+        lattice.add(tile.rect, apart);
+        const std::vector<glm::dvec3> ofTile = lattice.directions(area.mosaic.placement());
+        for (const glm::dvec3& place : ofTile) sum += place;
+        places.insert(places.end(), ofTile.begin(), ofTile.end());
+        // Nowhere does a tile reach further beyond a place of the lattice.
+        for (std::size_t i = 1; i < ofTile.size(); ++i)
+            marginRad = std::max(marginRad, std::min(glm::distance(ofTile[i - 1], ofTile[i]), 1.0));
+    }
+    const double length = glm::length(sum);
+    // Places all around the planet have no middle.
+    area.centre = length > 1e-6 * static_cast<double>(places.size()) ? sum / length : glm::dvec3(1, 0, 0);
+    double least = 1;
+    for (const glm::dvec3& place : places) least = std::min(least, glm::dot(area.centre, place));
+    area.radiusRad = std::acos(std::clamp(least, -1.0, 1.0)) + marginRad;
+}
+
+double commonStepM(const RasterMosaic& mosaic) {
+    const double first = mosaic.tiles()[0].raster->layout().stepM;
+    const bool same = std::ranges::all_of(
+        mosaic.tiles(), [&](const RasterMosaic::Tile& tile) { return tile.raster->layout().stepM == first; });
+    return same ? first : 0;
+}
+
+}  // namespace
+
+std::vector<SampleDensity> densitiesAt(const RasterPlacement& placement,
+                                       const std::vector<glm::dvec3>& directions) {
+    const std::size_t count = directions.size();
+    std::vector<double> longitudes(3 * count);
+    std::vector<double> latitudes(3 * count);
+    const auto set = [&](std::size_t at, const glm::dvec3& direction) {
+        const Geographic place = geographicFromDirection(direction);
+        longitudes[at] = place.longitudeRad;
+        latitudes[at] = place.latitudeRad;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3& here = directions[i];
+        const glm::dvec3 axis = std::abs(here.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+        const glm::dvec3 east = glm::normalize(glm::cross(axis, here));
+        set(3 * i, here);
+        set(3 * i + 1, here + differenceRad * east);
+        set(3 * i + 2, here + differenceRad * glm::cross(here, east));
+    }
+    std::vector<double> columns(3 * count);
+    std::vector<double> rows(3 * count);
+    placement.toGrid(longitudes, latitudes, columns, rows);
+    std::vector<SampleDensity> densities(count);
+    const double around = placement.columnsAround();
+    const auto columnDifference = [&](double a, double b) {
+        return around > 0 ? std::remainder(a - b, around) : a - b;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* const column = &columns[3 * i];
+        const double* const row = &rows[3 * i];
+        densities[i] = {
+            std::hypot(columnDifference(column[1], column[0]), columnDifference(column[2], column[0])) /
+                differenceRad,
+            std::hypot(row[1] - row[0], row[2] - row[0]) / differenceRad};
+    }
+    return densities;
+}
+
+bool CoveredSquares::meet(const ChunkId& square) const {
+    if (square.level >= level) {
+        return std::ranges::binary_search(indices, indexInQuadtreeOrder(ancestorOf(square, level)));
+    }
+    const int shift = 2 * (level - square.level);
+    const std::uint64_t first = indexInQuadtreeOrder(square) << shift;
+    const auto found = std::ranges::lower_bound(indices, first);
+    return found != indices.end() && *found - first < (std::uint64_t{1} << shift);
+}
+
+Result<RasterArea> surveyArea(RasterMosaic mosaic) {
+    RasterArea area{.mosaic = std::move(mosaic), .statistics = {}, .covered = {}};
+    setResolution(area);
+    setCap(area);
+    area.covered.level =
+        std::clamp(static_cast<int>(std::lround(std::log2(area.faceCells))) - cellSamplesLog2, 0, maxLevel);
+    area.stepM = commonStepM(area.mosaic);
+    const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
+    std::optional<Error> failure;
+    std::mutex mutex;
+    parallelFor(blocks.size(), [&](std::size_t i) {
+        const auto& [tileIndex, x, y] = blocks[i];
+        const RasterMosaic::Tile& tile = area.mosaic.tiles()[tileIndex];
+        const RasterLayout& layout = tile.raster->layout();
+        {
+            const std::lock_guard lock(mutex);
+            if (failure) return;
+        }
+        const Result<std::vector<float>> heights = tile.raster->readBlock(x, y);
+        if (!heights) {
+            const std::lock_guard lock(mutex);
+            failure = heights.error();
+            return;
+        }
+        const int left = x * layout.blockWidth;
+        const int top = y * layout.blockHeight;
+        const BlockSurvey survey = surveyBlock(
+            {tile.rect.column + left, tile.rect.row + top, std::min(layout.blockWidth, layout.width - left),
+             std::min(layout.blockHeight, layout.height - top)},
+            *heights);
+        std::vector<std::uint64_t> squares;
+        for (const glm::dvec3& direction : survey.lattice.directions(area.mosaic.placement()))
+            squares.push_back(squareAt(direction, area.covered.level));
+        sortUnique(squares);
+        const std::lock_guard lock(mutex);
+        addTo(area.statistics, survey.statistics);
+        area.sampleCount += heights->size();
+        area.covered.indices.insert(area.covered.indices.end(), squares.begin(), squares.end());
+    });
+    if (failure) return tl::unexpected(*std::move(failure));
+    sortUnique(area.covered.indices);
+    return area;
+}
+
+}  // namespace planet

@@ -1,0 +1,54 @@
+// The area of the planet that a mosaic of rasters covers, its resolution, and the range of its heights.
+// Internal to the library.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/raster/height_raster.h"
+#include "planet/raster/raster_mosaic.h"
+#include "planet/sphere/chunk_id.h"
+
+namespace planet {
+
+// The squares of one level of the cube's quadtrees in which a mosaic has heights. A square is about as wide as
+// 32 samples. A mosaic that reaches into a square by less than 8 samples at a corner may be missing.
+struct CoveredSquares {
+    int level = 0;
+    std::vector<std::uint64_t> indices;  // in quadtree order (indexInQuadtreeOrder), ascending
+
+    // Returns whether any of the squares shares more than an edge with a square of any level.
+    bool meet(const ChunkId& square) const;
+};
+
+struct RasterArea {
+    RasterMosaic mosaic;
+    HeightStatistics statistics;  // of all tiles; missing samples do not count towards the range
+    std::uint64_t sampleCount = 0;
+    double stepM = 0;  // the common step of integer tiles, metres; 0 if there is none
+    // A cap of the unit sphere that holds all samples.
+    glm::dvec3 centre{};
+    double radiusRad = 0;
+    // The largest number of samples in a radian along an axis of the grid, at the middle of any tile.
+    double samplesPerRad = 0;
+    // The smallest power of two of cells along a face that loses no samples, at the middle of any tile.
+    int faceCells = 1;
+    CoveredSquares covered;
+};
+
+// Reads every sample once. The Error names the file.
+Result<RasterArea> surveyArea(RasterMosaic mosaic);
+
+// The number of samples in a radian along each axis of a grid.
+struct SampleDensity {
+    double columnsPerRad = 0;
+    double rowsPerRad = 0;
+};
+// Computes the densities at places, by differences to two places a millionth of a radian away. They are not
+// finite where the projection does not reach.
+std::vector<SampleDensity> densitiesAt(const RasterPlacement& placement,
+                                       const std::vector<glm::dvec3>& directions);
+
+}  // namespace planet

@@ -1,0 +1,87 @@
+// Rasters that lie on one grid, read as one: tiles of a data set are joined before they are filtered, so that
+// heights do not depend on where the tiles meet. Internal to the library.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/raster/gdal_raster.h"
+#include "planet/raster/height_raster.h"
+#include "planet/raster/raster_placement.h"
+
+namespace planet {
+
+// A rectangle of the grid, in samples. Columns go on beyond the date line if the grid follows the meridians.
+struct GridRect {
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+    std::int64_t columns = 0;
+    std::int64_t rows = 0;
+};
+
+// The resolution at which a mosaic is read: a sample is the mean of 2^columnsLog2 x 2^rowsLog2 samples. Sample
+// i of a halved axis covers samples 2 i and 2 i + 1.
+struct GridReduction {
+    int columnsLog2 = 0;  // [0, 22]
+    int rowsLog2 = 0;     // [0, 22]
+
+    auto operator<=>(const GridReduction&) const = default;
+};
+
+// Several threads may read at once.
+class RasterMosaic {
+public:
+    struct Tile {
+        std::shared_ptr<const GdalRaster> raster;
+        GridRect rect;
+    };
+
+    // Returns the fewest mosaics that hold all rasters, each on the grid of its first raster. The rasters keep
+    // their order in a mosaic. At most 2^20 rasters.
+    static Result<std::vector<RasterMosaic>> join(
+        const std::vector<std::shared_ptr<const GdalRaster>>& rasters,
+        const std::shared_ptr<HeightBlockCache>& cache);
+
+    const std::vector<Tile>& tiles() const { return tiles_; }
+    const RasterPlacement& placement() const { return placement_; }
+    const GridRect& bounds() const { return bounds_; }  // of all tiles
+    // The columns once around the planet, after which the grid repeats; 0: it does not repeat.
+    std::int64_t period() const { return period_; }
+
+    // Reads heights in metres, row-major; NaN where no tile has a height. Where tiles overlap, the last one
+    // with a height there counts. Beyond a pole, a grid that repeats goes on half a turn further.
+    Result<void> read(GridReduction reduction, const GridRect& rect, std::span<float> out) const;
+
+private:
+    RasterMosaic(const GdalRaster& first, RasterPlacement placement, std::shared_ptr<HeightBlockCache> cache,
+                 int number);
+    void add(const std::shared_ptr<const GdalRaster>& raster);
+    void sortIntoBands();
+    Result<void> readTile(std::size_t tile, const GridRect& rect, const GridRect& target,
+                          std::span<float> out) const;
+    template <class Visit>
+    Result<void> forTilesIn(const GridRect& rect, const Visit& visit) const;
+    bool mayHaveHeightsIn(const GridRect& rect) const;
+    Result<void> readTiles(const GridRect& rect, std::span<float> out) const;
+    Result<void> readSamples(const GridRect& rect, std::span<float> out) const;
+    Result<std::vector<float>> reducedBlock(GridReduction reduction, std::int64_t blockX,
+                                            std::int64_t blockY) const;
+
+    RasterPlacement placement_;
+    RasterLayout layout_;  // of the first raster
+    std::shared_ptr<HeightBlockCache> cache_;
+    int number_ = 0;  // distinguishes the mosaics that share the cache
+    std::vector<Tile> tiles_;
+    GridRect bounds_;
+    std::int64_t period_ = 0;
+    // Tiles by the bands of rows that they touch. A band is as high as the highest tile.
+    std::int64_t bandRows_ = 1;
+    std::vector<std::vector<std::size_t>> bands_;
+};
+
+}  // namespace planet

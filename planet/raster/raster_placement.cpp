@@ -1,0 +1,203 @@
+#include "planet/raster/raster_placement.h"
+
+#include <fmt/format.h>
+#include <proj.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "planet/base/try.h"
+
+namespace planet {
+
+namespace {
+
+constexpr double radPerDeg = std::numbers::pi / 180;
+// A reference system whose degrees differ by less from those of WGS 84, about 0.1 mm, needs no transformation.
+constexpr double sameDeg = 1e-9;
+
+struct ContextDestroyer {
+    void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+};
+struct PjDestroyer {
+    void operator()(PJ* pj) const { proj_destroy(pj); }
+};
+using ContextPtr = std::unique_ptr<PJ_CONTEXT, ContextDestroyer>;
+using PjPtr = std::unique_ptr<PJ, PjDestroyer>;
+
+void ignoreMessage(void*, int, const char*) {}
+
+ContextPtr makeContext() {
+    ContextPtr context(proj_context_create());
+    proj_log_func(context.get(), nullptr, ignoreMessage);
+    proj_context_set_enable_network(context.get(), 0);
+    return context;
+}
+
+// The transformation from degrees of longitude and latitude, for the use of one thread at a time.
+struct Transformation {
+    ContextPtr context;  // destroyed last
+    PjPtr forward;
+};
+
+// Returns a transformation between two reference systems with longitude before latitude and easting before
+// northing; null if there is none.
+PjPtr between(PJ_CONTEXT* context, const PJ* from, const PJ* to) {
+    const PjPtr plain(proj_create_crs_to_crs_from_pj(context, from, to, nullptr, nullptr));
+    return PjPtr(plain ? proj_normalize_for_visualization(context, plain.get()) : nullptr);
+}
+
+std::optional<Transformation> makeTransformation(const std::string& crs) {
+    Transformation made{makeContext(), nullptr};
+    PJ_CONTEXT* const context = made.context.get();
+    const PjPtr target(proj_create(context, crs.c_str()));
+    const PjPtr wgs84(proj_create(context, "EPSG:4326"));
+    if (!target || !wgs84) return std::nullopt;
+    made.forward = between(context, wgs84.get(), target.get());
+    if (!made.forward) {
+        // PROJ refuses to go from the Earth to another body, whose own latitude and longitude are meant then.
+        const PjPtr own(proj_crs_get_geodetic_crs(context, target.get()));
+        if (own) made.forward = between(context, own.get(), target.get());
+    }
+    if (!made.forward) return std::nullopt;
+    return made;
+}
+
+// Returns the units of longitude in a full turn if the reference system is one of longitude and latitude;
+// otherwise 0.
+double unitsAround(const std::string& crs) {
+    const ContextPtr context = makeContext();
+    const PjPtr system(proj_create(context.get(), crs.c_str()));
+    if (!system) return 0;
+    const PJ_TYPE type = proj_get_type(system.get());
+    if (type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS) return 0;
+    const PjPtr axes(proj_crs_get_coordinate_system(context.get(), system.get()));
+    double unitRad = 0;
+    const bool known = axes && proj_cs_get_axis_info(context.get(), axes.get(), 0, nullptr, nullptr, nullptr,
+                                                     &unitRad, nullptr, nullptr, nullptr) != 0;
+    return known && unitRad > 0 ? 2 * std::numbers::pi / unitRad : 0;
+}
+
+double withinTurn(double longitudeRad) {
+    return std::remainder(longitudeRad, 2 * std::numbers::pi);
+}
+
+}  // namespace
+
+// Transformations that no thread is using. Another is made if there is none.
+class RasterPlacement::Transformations {
+public:
+    explicit Transformations(std::string crs) : crs_(std::move(crs)) {}
+
+    Transformation borrow() {
+        {
+            const std::lock_guard lock(mutex_);
+            if (!idle_.empty()) {
+                Transformation transformation = std::move(idle_.back());
+                idle_.pop_back();
+                return transformation;
+            }
+        }
+        std::optional<Transformation> made = makeTransformation(crs_);
+        assert(made);  // it could be made before
+        return *std::move(made);
+    }
+    void giveBack(Transformation transformation) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(transformation));
+    }
+
+private:
+    std::string crs_;
+    std::mutex mutex_;
+    std::vector<Transformation> idle_;
+};
+
+Result<RasterPlacement> RasterPlacement::make(const std::string& file, const RasterGrid& grid) {
+    RasterPlacement placement;
+    placement.x_ = grid.x;
+    placement.y_ = grid.y;
+    placement.perArea_ = 1 / (grid.x[1] * grid.y[2] - grid.x[2] * grid.y[1]);
+    std::optional<Transformation> transformation = makeTransformation(grid.crs);
+    if (!transformation) {
+        return badInput(
+            fmt::format("{}: PROJ knows no way from longitude and latitude to its coordinate reference "
+                        "system; expected one of the Earth, or of another body with its own longitude and "
+                        "latitude",
+                        file));
+    }
+    const double around = unitsAround(grid.crs);
+    const bool alongMeridians = around > 0 && grid.x[2] == 0 && grid.y[1] == 0;
+    bool isDegrees = around > 0 && std::abs(around - 360) < sameDeg;
+    for (const double longitude : {-97.0, 0.5, 151.0}) {
+        const PJ_COORD out = proj_trans(transformation->forward.get(), PJ_FWD,
+                                        proj_coord(longitude, longitude / 4, 0, HUGE_VAL));
+        isDegrees = isDegrees && std::abs(out.xy.x - longitude) < sameDeg &&
+                    std::abs(out.xy.y - longitude / 4) < sameDeg;
+    }
+    if (alongMeridians) {
+        placement.columnsAround_ = around / std::abs(grid.x[1]);
+        const double pole = around / 4;
+        placement.northRow_ = (pole - grid.y[0]) / grid.y[2];
+        placement.southRow_ = (-pole - grid.y[0]) / grid.y[2];
+    }
+    if (isDegrees) return placement;
+    placement.transformations_ = std::make_shared<Transformations>(grid.crs);
+    placement.transformations_->giveBack(*std::move(transformation));
+    return placement;
+}
+
+double RasterPlacement::rowsPerRad() const {
+    return std::abs(southRow_ - northRow_) / std::numbers::pi;
+}
+
+void RasterPlacement::toGrid(std::span<const double> longitudeRad, std::span<const double> latitudeRad,
+                             std::span<double> column, std::span<double> row) const {
+    const std::size_t count = longitudeRad.size();
+    assert(latitudeRad.size() == count && column.size() == count && row.size() == count);
+    for (std::size_t i = 0; i < count; ++i) {
+        column[i] = longitudeRad[i] / radPerDeg;
+        row[i] = latitudeRad[i] / radPerDeg;
+    }
+    if (transformations_) {
+        Transformation transformation = transformations_->borrow();
+        proj_trans_generic(transformation.forward.get(), PJ_FWD, column.data(), sizeof(double), count,
+                           row.data(), sizeof(double), count, nullptr, 0, 0, nullptr, 0, 0);
+        transformations_->giveBack(std::move(transformation));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const double dx = column[i] - x_[0];
+        const double dy = row[i] - y_[0];
+        column[i] = (dx * y_[2] - dy * x_[2]) * perArea_;
+        row[i] = (dy * x_[1] - dx * y_[1]) * perArea_;
+    }
+}
+
+void RasterPlacement::toPlanet(std::span<const double> column, std::span<const double> row,
+                               std::span<double> longitudeRad, std::span<double> latitudeRad) const {
+    const std::size_t count = column.size();
+    assert(row.size() == count && longitudeRad.size() == count && latitudeRad.size() == count);
+    for (std::size_t i = 0; i < count; ++i) {
+        longitudeRad[i] = x_[0] + x_[1] * column[i] + x_[2] * row[i];
+        latitudeRad[i] = y_[0] + y_[1] * column[i] + y_[2] * row[i];
+    }
+    if (transformations_) {
+        Transformation transformation = transformations_->borrow();
+        proj_trans_generic(transformation.forward.get(), PJ_INV, longitudeRad.data(), sizeof(double), count,
+                           latitudeRad.data(), sizeof(double), count, nullptr, 0, 0, nullptr, 0, 0);
+        transformations_->giveBack(std::move(transformation));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        longitudeRad[i] = withinTurn(longitudeRad[i] * radPerDeg);
+        latitudeRad[i] *= radPerDeg;
+    }
+}
+
+}  // namespace planet

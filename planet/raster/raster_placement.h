@@ -1,0 +1,60 @@
+// Where the samples of a georeferenced raster lie on the planet, by PROJ. Geodetic latitude and longitude of
+// WGS 84 are taken as those of the sphere, unchanged. A body other than the Earth has its own. Internal to
+// the library.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "planet/base/result.h"
+
+namespace planet {
+
+// The grid of a raster: maps (column, row) to the centre of a sample in a reference system, as in
+// RasterLayout.
+struct RasterGrid {
+    std::array<double, 3> x{};
+    std::array<double, 3> y{};
+    std::string crs;  // WKT
+};
+
+// Copies share the transformations. Several threads may call the const functions at once; each borrows a
+// transformation of its own.
+class RasterPlacement {
+public:
+    // file: for messages. The Error says that PROJ knows no way from longitude and latitude to the
+    // coordinates of the grid.
+    static Result<RasterPlacement> make(const std::string& file, const RasterGrid& grid);
+
+    // Convert places, in radians, to positions on the grid and back. All spans of a call have the same
+    // length. Positions and places that the projection does not reach are not finite. Longitudes are in
+    // [-pi, pi].
+    void toGrid(std::span<const double> longitudeRad, std::span<const double> latitudeRad,
+                std::span<double> column, std::span<double> row) const;
+    void toPlanet(std::span<const double> column, std::span<const double> row, std::span<double> longitudeRad,
+                  std::span<double> latitudeRad) const;
+
+    // The number of columns once around the planet, if columns follow the meridians; otherwise 0.
+    double columnsAround() const { return columnsAround_; }
+    // The row of the north pole and of the south pole, if columns follow the meridians.
+    double northRow() const { return northRow_; }
+    double southRow() const { return southRow_; }
+    // The number of rows in a radian of latitude, if columns follow the meridians.
+    double rowsPerRad() const;
+
+private:
+    class Transformations;
+    RasterPlacement() = default;
+
+    std::array<double, 3> x_{};
+    std::array<double, 3> y_{};
+    double perArea_ = 0;                                // 1 over the determinant of the grid's steps
+    std::shared_ptr<Transformations> transformations_;  // null: longitude and latitude in degrees
+    double columnsAround_ = 0;
+    double northRow_ = 0;
+    double southRow_ = 0;
+};
+
+}  // namespace planet

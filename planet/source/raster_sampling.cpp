@@ -1,0 +1,324 @@
+#include "planet/source/raster_sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "planet/base/try.h"
+#include "planet/source/height_filter.h"
+#include "planet/source/height_geographic.h"
+#include "planet/source/sample_tiles.h"
+
+namespace planet {
+
+namespace {
+
+constexpr std::int64_t mostRegionSamples = 3 << 20;  // samples in memory at once: 12 MB
+constexpr double reducedAt = 4;                      // a kernel stretched by more is applied to means
+
+// A place on the grid of a mosaic, at a reduced resolution.
+struct Position {
+    std::size_t index = 0;  // in the piece
+    double column = 0;
+    double row = 0;
+    float columnStretch = 1;
+    float rowStretch = 1;
+
+    std::int64_t firstColumn() const { return firstTap(column, columnStretch); }
+    std::int64_t firstRow() const { return firstTap(row, rowStretch); }
+
+private:
+    static std::int64_t firstTap(double at, float stretch) {
+        return static_cast<std::int64_t>(std::floor(at - 2.0 * static_cast<double>(stretch))) + 1;
+    }
+};
+
+// Positions that are read from one region, in ascending order of their samples. A grid that repeats is read on
+// either side of the middle of a turn alone, because a piece across its end would need the whole turn.
+struct Region {
+    GridReduction reduction;
+    bool east = false;
+
+    auto operator<=>(const Region&) const = default;
+};
+using Positions = std::map<Region, std::vector<Position>>;
+
+// Halves a resolution while the kernel is wide; returns the number of halvings.
+int reduce(double& position, double& stretch) {
+    int halvings = 0;
+    while (stretch >= reducedAt) {
+        stretch /= 2;
+        position = (position + 0.5) / 2 - 0.5;
+        ++halvings;
+    }
+    return halvings;
+}
+
+double middleColumn(const RasterMosaic& mosaic) {
+    const GridRect& bounds = mosaic.bounds();
+    return static_cast<double>(bounds.column) + static_cast<double>(bounds.columns - 1) / 2;
+}
+
+// Moves a column by whole turns to the turn around the middle of the mosaic.
+double inTurn(const RasterMosaic& mosaic, double column) {
+    const double around = mosaic.placement().columnsAround();
+    if (around <= 0) return column;
+    return column - std::floor((column - middleColumn(mosaic)) / around + 0.5) * around;
+}
+
+bool isOnGrid(const RasterMosaic& mosaic, double columnInTurn, double row) {
+    const GridRect& bounds = mosaic.bounds();
+    const double fromLeft = columnInTurn - static_cast<double>(bounds.column) + 0.5;
+    const double fromTop = row - static_cast<double>(bounds.row) + 0.5;
+    return fromLeft >= 0 && fromLeft <= static_cast<double>(bounds.columns) && fromTop >= 0 &&
+           fromTop <= static_cast<double>(bounds.rows);  // false for NaN
+}
+
+// Returns how many samples lie in a radian along each axis at each place; nothing if the grid of the planet is finer
+// than the mosaic everywhere.
+std::vector<SampleDensity> densitiesFor(const RasterArea& area, const PiecePlaces& places,
+                                        std::span<const std::size_t> wanted) {
+    // A projection is expected to stretch a tile by less than this factor from its middle to its edge.
+    constexpr double mostUneven = 2;
+    if (places.spacingRad * area.samplesPerRad * mostUneven <= 1) return {};
+    const RasterPlacement& placement = area.mosaic.placement();
+    const double around = placement.columnsAround();
+    if (around <= 0) {
+        std::vector<glm::dvec3> directions;
+        for (const std::size_t i : wanted)
+            directions.push_back(directionFromGeographic({places.latitudeRad[i], places.longitudeRad[i]}));
+        return densitiesAt(placement, directions);
+    }
+    const double perRad = around / (2 * std::numbers::pi);
+    std::vector<SampleDensity> densities;
+    for (const std::size_t i : wanted)
+        densities.push_back({perRad / std::max(places.ring[i], 1e-12), placement.rowsPerRad()});
+    return densities;
+}
+
+double stretchOf(double samplesPerRad, double spacingRad) {
+    const double stretch = samplesPerRad * spacingRad;
+    return std::isfinite(stretch) ? std::clamp(stretch, 1.0, 4e6) : 1;
+}
+
+// Sorts the places without a height into regions.
+Positions positionsOf(const RasterArea& area, const PiecePlaces& places, const PlacesOnGrid& onGrid,
+                      std::span<const float> heights) {
+    const std::vector<SampleDensity> densities = densitiesFor(area, places, onGrid.index);
+    const double middle = middleColumn(area.mosaic);
+    const std::int64_t period = area.mosaic.period();
+    Positions positions;
+    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
+        if (!std::isnan(heights[onGrid.index[i]])) continue;
+        double column = onGrid.column[i];
+        double row = onGrid.row[i];
+        const SampleDensity density = densities.empty() ? SampleDensity{} : densities[i];
+        double columnStretch = stretchOf(density.columnsPerRad, places.spacingRad);
+        double rowStretch = stretchOf(density.rowsPerRad, places.spacingRad);
+        // Near a pole the kernel covers the whole turn, but no sample twice.
+        if (period >= 4) columnStretch = std::min(columnStretch, static_cast<double>(period) / 4);
+        const bool east = period > 0 && column > middle;
+        const int columnsLog2 = reduce(column, columnStretch);
+        const int rowsLog2 = reduce(row, rowStretch);
+        positions[{{columnsLog2, rowsLog2}, east}].push_back({onGrid.index[i], column, row,
+                                                              static_cast<float>(columnStretch),
+                                                              static_cast<float>(rowStretch)});
+    }
+    return positions;
+}
+
+GridRect boundsOf(std::span<const Position> positions) {
+    std::int64_t left = positions[0].firstColumn();
+    std::int64_t top = positions[0].firstRow();
+    std::int64_t right = left;
+    std::int64_t bottom = top;
+    for (const Position& position : positions) {
+        left = std::min(left, position.firstColumn());
+        top = std::min(top, position.firstRow());
+        right = std::max(right, position.firstColumn() + tapCount(position.columnStretch));
+        bottom = std::max(bottom, position.firstRow() + tapCount(position.rowStretch));
+    }
+    return {left, top, right - left, bottom - top};
+}
+
+// The samples of a region of a mosaic.
+struct RegionSamples {
+    GridRect rect;
+    std::vector<float> heights;
+
+    const float* at(std::int64_t column, std::int64_t row) const {
+        return &heights[static_cast<std::size_t>((row - rect.row) * rect.columns + column - rect.column)];
+    }
+};
+
+// Filters the samples around a position, all of which have heights; NaN if one has none.
+class PositionFilter {
+public:
+    float filtered(const RegionSamples& samples, const Position& position) {
+        const std::int64_t column = position.firstColumn();
+        const std::int64_t row = position.firstRow();
+        columnWeights_.resize(static_cast<std::size_t>(tapCount(position.columnStretch)));
+        rowWeights_.resize(static_cast<std::size_t>(tapCount(position.rowStretch)));
+        kernelWeights(static_cast<float>(position.column - static_cast<double>(column)),
+                      position.columnStretch, columnWeights_);
+        kernelWeights(static_cast<float>(position.row - static_cast<double>(row)), position.rowStretch,
+                      rowWeights_);
+        Float4 sum{};
+        for (std::size_t j = 0; j < rowWeights_.size(); ++j) {
+            const float* const from = samples.at(column, row + static_cast<std::int64_t>(j));
+            Float4 rowSum{};
+            for (std::size_t i = 0; i < columnWeights_.size(); i += 4)
+                rowSum += loadFloat4(columnWeights_.data() + i) * loadFloat4(from + i);
+            sum += rowWeights_[j] * rowSum;
+        }
+        const float height = sumOfLanes(sum);
+        return std::isnan(height) ? filteredWithout(samples, column, row) : height;
+    }
+
+private:
+    // Leaves out samples without a height, and the negative parts of the kernel, without which the sum of the
+    // remaining weights could be near 0.
+    float filteredWithout(const RegionSamples& samples, std::int64_t column, std::int64_t row) const {
+        double sum = 0;
+        double weights = 0;
+        for (std::size_t j = 0; j < rowWeights_.size(); ++j) {
+            const float* const from = samples.at(column, row + static_cast<std::int64_t>(j));
+            for (std::size_t i = 0; i < columnWeights_.size(); ++i) {
+                if (std::isnan(from[i])) continue;
+                const double weight = static_cast<double>(std::max(0.0f, columnWeights_[i])) *
+                                      static_cast<double>(std::max(0.0f, rowWeights_[j]));
+                weights += weight;
+                sum += weight * static_cast<double>(from[i]);
+            }
+        }
+        return static_cast<float>(sum / weights);
+    }
+
+    std::vector<float> columnWeights_;
+    std::vector<float> rowWeights_;
+};
+
+Result<void> fillPositions(const RasterMosaic& mosaic, const GridReduction& reduction,
+                           std::span<const Position> positions, std::span<float> heights) {
+    RegionSamples samples{boundsOf(positions), {}};
+    if (samples.rect.columns * samples.rect.rows > mostRegionSamples && positions.size() > 1) {
+        const std::size_t half = positions.size() / 2;
+        TRY(fillPositions(mosaic, reduction, positions.first(half), heights));
+        return fillPositions(mosaic, reduction, positions.subspan(half), heights);
+    }
+    samples.heights.resize(static_cast<std::size_t>(samples.rect.columns * samples.rect.rows));
+    TRY(mosaic.read(reduction, samples.rect, samples.heights));
+    PositionFilter filter;
+    for (const Position& position : positions) {
+        const float nearest = *samples.at(std::llround(position.column), std::llround(position.row));
+        if (!std::isnan(nearest)) heights[position.index] = filter.filtered(samples, position);
+    }
+    return {};
+}
+
+}  // namespace
+
+PiecePlaces placesOf(const SampleTile& piece) {
+    const std::size_t count = samplesIn(piece);
+    const auto columns = static_cast<std::size_t>(piece.columns);
+    PiecePlaces places{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count)};
+    for (int row = 0; row < piece.rows; ++row) {
+        const std::size_t first = static_cast<std::size_t>(row) * columns;
+        geographicRow(piece.face, piece.faceCells, piece.firstColumn, piece.firstRow + row,
+                      {std::span(places.longitudeRad).subspan(first, columns),
+                       std::span(places.latitudeRad).subspan(first, columns),
+                       std::span(places.ring).subspan(first, columns)});
+    }
+    places.spacingRad = std::numbers::pi / 2 / piece.faceCells;
+    places.centre = directionOf(piece.face, piece.faceCells, piece.firstColumn + piece.columns / 2,
+                                piece.firstRow + piece.rows / 2);
+    // A cell of a face is at most 2 / cells radians long, and half the diagonal of a piece has the middle.
+    places.radiusRad = 2.0 / piece.faceCells * std::hypot(piece.columns + 1, piece.rows + 1) / 2;
+    return places;
+}
+
+PlacesOnGrid placesOnGrid(const RasterArea& area, const PiecePlaces& places) {
+    const double apart = std::acos(std::clamp(glm::dot(area.centre, places.centre), -1.0, 1.0));
+    if (apart > area.radiusRad + places.radiusRad) return {};
+    const std::size_t count = places.longitudeRad.size();
+    PlacesOnGrid all{std::vector<std::size_t>(count), std::vector<double>(count), std::vector<double>(count)};
+    area.mosaic.placement().toGrid(places.longitudeRad, places.latitudeRad, all.column, all.row);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double column = inTurn(area.mosaic, all.column[i]);
+        if (!isOnGrid(area.mosaic, column, all.row[i])) continue;
+        all.index[kept] = i;
+        all.column[kept] = column;
+        all.row[kept] = all.row[i];
+        ++kept;
+    }
+    all.index.resize(kept);
+    all.column.resize(kept);
+    all.row.resize(kept);
+    return all;
+}
+
+Result<void> fillFrom(const RasterArea& area, const PiecePlaces& places, const PlacesOnGrid& onGrid,
+                      std::span<float> heightsM) {
+    for (const auto& [region, positions] : positionsOf(area, places, onGrid, heightsM))
+        TRY(fillPositions(area.mosaic, region.reduction, positions, heightsM));
+    return {};
+}
+
+namespace {
+
+// The height at a place between four samples, some of which may have none, and their share of the weights.
+struct PartlyKnown {
+    double heightM = 0;
+    double share = 0;  // [0, 1]
+};
+
+Result<PartlyKnown> betweenFour(const RasterMosaic& mosaic, int halvings, double column, double row) {
+    const double x = std::ldexp(column + 0.5, -halvings) - 0.5;
+    const double y = std::ldexp(row + 0.5, -halvings) - 0.5;
+    const double left = std::floor(x);
+    const double top = std::floor(y);
+    std::array<float, 4> four{};
+    TRY(mosaic.read({halvings, halvings},
+                    {static_cast<std::int64_t>(left), static_cast<std::int64_t>(top), 2, 2}, four));
+    const std::array<double, 2> across = {1 - (x - left), x - left};
+    const std::array<double, 2> down = {1 - (y - top), y - top};
+    PartlyKnown known;
+    for (std::size_t i = 0; i < four.size(); ++i) {
+        if (std::isnan(four[i])) continue;
+        const double weight = across[i % 2] * down[i / 2];
+        known.share += weight;
+        known.heightM += weight * static_cast<double>(four[i]);
+    }
+    if (known.share > 0) known.heightM /= known.share;
+    return known;
+}
+
+}  // namespace
+
+Result<void> fillVoids(const RasterArea& area, const PlacesOnGrid& onGrid, std::span<float> heightsM) {
+    const GridRect& bounds = area.mosaic.bounds();
+    const int coarsest =
+        static_cast<int>(std::ceil(std::log2(static_cast<double>(std::max(bounds.columns, bounds.rows)))));
+    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
+        float& height = heightsM[onGrid.index[i]];
+        if (!std::isnan(height)) continue;
+        double filled = std::numeric_limits<double>::quiet_NaN();
+        for (int halvings = coarsest; halvings >= 0; --halvings) {
+            TRY_ASSIGN(const auto known, betweenFour(area.mosaic, halvings, onGrid.column[i], onGrid.row[i]));
+            if (known.share <= 0) continue;
+            filled = std::isnan(filled) ? known.heightM : std::lerp(filled, known.heightM, known.share);
+        }
+        height = static_cast<float>(filled);
+    }
+    return {};
+}
+
+}  // namespace planet

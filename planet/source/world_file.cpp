@@ -1,0 +1,228 @@
+#include "planet/source/world_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "planet/base/try.h"
+#include "planet/source/height_source.h"
+#include "planet/source/height_source_kinds.h"
+#include "planet/source/toml_file.h"
+
+namespace planet {
+
+namespace {
+
+constexpr std::size_t mostLayers = 1000;
+constexpr std::size_t mostFiles = 1u << 20;
+
+// A key of a layer, and how to read it.
+struct LayerKey {
+    std::string_view name;
+    Result<void> (*read)(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer);
+};
+
+Result<void> addFile(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer) {
+    TRY_ASSIGN(const auto text, readText(file, "files", node));
+    if (text.empty())
+        return badInput(
+            fmt::format("{}: files has an empty path; expected a file or a pattern", placeOf(file, node)));
+    layer.files.push_back(file.parent_path() / text);
+    return {};
+}
+
+Result<void> readFiles(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer) {
+    const toml::array* const list = node.as_array();
+    if (!list) return addFile(file, node, layer);
+    if (list->empty())
+        return badInput(fmt::format("{}: files is empty; expected paths or patterns", placeOf(file, node)));
+    for (const toml::node& each : *list) TRY(addFile(file, each, layer));
+    return {};
+}
+
+Result<void> readScale(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer) {
+    TRY_ASSIGN(layer.scale, readNumber(file, "scale", node, {-1e6, 1e6, ""}));
+    if (layer.scale != 0) return {};
+    return badInput(fmt::format("{}: scale is 0; expected another number", placeOf(file, node)));
+}
+
+Result<void> readVoids(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer) {
+    if (node.is_number()) {
+        layer.voids = LayerVoids::Height;
+        TRY_ASSIGN(layer.voidM, readNumber(file, "voids", node, {-1e6, 1e6, "m"}));
+        return {};
+    }
+    const auto* const text = node.as_string();
+    if (text && *text == "below") {
+        layer.voids = LayerVoids::Below;
+    } else if (text && *text == "fill") {
+        layer.voids = LayerVoids::Fill;
+    } else {
+        return badInput(fmt::format("{}: voids is {}; expected \"below\", \"fill\" or a height in metres",
+                                    placeOf(file, node), shownValue(node)));
+    }
+    return {};
+}
+
+Result<void> readJoin(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer) {
+    const auto* const text = node.as_string();
+    if (text && *text == "replace") {
+        layer.join = LayerJoin::Replace;
+    } else if (text && *text == "max") {
+        layer.join = LayerJoin::Max;
+    } else if (text && *text == "add") {
+        layer.join = LayerJoin::Add;
+    } else {
+        return badInput(fmt::format("{}: join is {}; expected \"replace\", \"max\" or \"add\"",
+                                    placeOf(file, node), shownValue(node)));
+    }
+    return {};
+}
+
+constexpr std::array layerKeys = {
+    LayerKey{"name",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.name, readText(file, "name", node));
+                 return {};
+             }},
+    LayerKey{"files", readFiles},
+    LayerKey{"terrain",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.terrain, readText(file, "terrain", node));
+                 return {};
+             }},
+    LayerKey{"detail",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(const auto text, readText(file, "detail", node));
+                 layer.detail = "detail:" + text;
+                 return {};
+             }},
+    LayerKey{"join", readJoin},
+    LayerKey{"voids", readVoids},
+    LayerKey{"feather_m",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.featherM, readNumber(file, "feather_m", node, {0, 1e6, "m"}));
+                 return {};
+             }},
+    LayerKey{"scale", readScale},
+    LayerKey{"offset_m",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.offsetM, readNumber(file, "offset_m", node, {-1e6, 1e6, "m"}));
+                 return {};
+             }},
+};
+
+std::string knownKeys() {
+    std::string names;
+    for (const LayerKey& key : layerKeys) names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
+    return names;
+}
+
+// Checks what one key alone cannot say.
+Result<void> checkLayer(const std::string& place, const WorldLayer& layer, bool isFirst) {
+    const int contents =
+        (layer.files.empty() ? 0 : 1) + (layer.terrain.empty() ? 0 : 1) + (layer.detail.empty() ? 0 : 1);
+    if (contents != 1) {
+        return badInput(fmt::format("{}: a layer has {} of files, terrain and detail; expected exactly one",
+                                    place, contents));
+    }
+    if (!layer.terrain.empty() && !layer.terrain.starts_with("noise:")) {
+        return badInput(
+            fmt::format("{}: terrain is \"{}\"; expected procedural terrain such as \"noise:ridged,seed=7\"",
+                        place, layer.terrain));
+    }
+    if (layer.files.empty() && (layer.featherM > 0 || layer.voids != LayerVoids::Below)) {
+        return badInput(fmt::format(
+            "{}: only a layer of files has feather_m and voids, because terrain has no rim; expected "
+            "none of them",
+            place));
+    }
+    if (!layer.detail.empty() &&
+        (isFirst || layer.join != LayerJoin::Replace || layer.scale != 1 || layer.offsetM != 0)) {
+        return badInput(fmt::format(
+            "{}: detail refines what lies under it; expected a layer under it, and no join, scale or "
+            "offset_m",
+            place));
+    }
+    return {};
+}
+
+Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node& node, bool isFirst) {
+    const toml::table* const table = node.as_table();
+    const std::string place = placeOf(file, node);
+    if (!table)
+        return badInput(
+            fmt::format("{}: a layer is {}; expected a table [[elevation]]", place, shownValue(node)));
+    WorldLayer layer;
+    for (const auto& [key, value] : *table) {
+        const auto known = std::ranges::find(layerKeys, key.str(), &LayerKey::name);
+        if (known == layerKeys.end()) {
+            return badInput(fmt::format("{}: {} is no key of a layer; expected one of {}",
+                                        placeOf(file, value), key.str(), knownKeys()));
+        }
+        TRY(known->read(file, value, layer));
+    }
+    TRY(checkLayer(place, layer, isFirst));
+    if (layer.name.empty()) {
+        const std::string& text = layer.terrain.empty() ? layer.detail : layer.terrain;
+        layer.name = layer.files.empty() ? text : layer.files[0].filename().string();
+    }
+    return layer;
+}
+
+}  // namespace
+
+Result<WorldFile> readWorldFile(const std::filesystem::path& path) {
+    TRY_ASSIGN(const auto table, parseTomlFile(path));
+    WorldFile world;
+    for (const auto& [key, value] : table) {
+        if (key.str() == "fill_m") {
+            TRY_ASSIGN(world.fillM, readNumber(path, "fill_m", value, {-1e6, 1e6, "m"}));
+        } else if (key.str() == "radius_m") {
+            TRY_ASSIGN(world.radiusM, readNumber(path, "radius_m", value, {1, 1e9, "m"}));
+        } else if (key.str() != "elevation") {
+            return badInput(fmt::format(
+                "{}: {} is no key of a world file; expected radius_m, fill_m and tables [[elevation]]",
+                placeOf(path, value), key.str()));
+        }
+    }
+    const toml::array* const layers = table["elevation"].as_array();
+    if (!layers || layers->empty() || layers->size() > mostLayers) {
+        return badInput(fmt::format("{}: has {} layers; expected [1, {}] tables [[elevation]]", path.string(),
+                                    layers ? layers->size() : 0, mostLayers));
+    }
+    for (const toml::node& node : *layers) {
+        TRY_ASSIGN(auto layer, readLayer(path, node, world.layers.empty()));
+        world.layers.push_back(std::move(layer));
+    }
+    return world;
+}
+
+Result<std::vector<std::filesystem::path>> filesOfLayer(const WorldLayer& layer) {
+    std::vector<std::filesystem::path> files;
+    for (const std::filesystem::path& named : layer.files) {
+        if (isFilePattern(named)) {
+            const std::vector<std::filesystem::path> found = filesOfPattern(named);
+            if (found.empty()) {
+                return ioError(fmt::format("{}: no file matches this pattern of layer \"{}\"", named.string(),
+                                           layer.name));
+            }
+            files.insert(files.end(), found.begin(), found.end());
+            continue;
+        }
+        if (isWorldFile(named)) {
+            return badInput(
+                fmt::format("{}: a world file cannot be a layer; expected rasters, an image or cube faces",
+                            named.string()));
+        }
+        files.push_back(named);
+    }
+    if (files.size() <= mostFiles) return files;
+    return badInput(
+        fmt::format("{}: has {} files; expected at most {}", layer.name, files.size(), mostFiles));
+}
+
+}  // namespace planet

@@ -1,0 +1,57 @@
+// Reads a world file: TOML that lists layers of elevation from the bottom up. README.md beside this file has the
+// schema. Internal to the library.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/sphere/planet_shape.h"
+
+namespace planet {
+
+// How a layer joins what lies under it.
+enum class LayerJoin : std::uint8_t {
+    Replace,  // its heights count
+    Max,      // the higher one counts
+    Add       // its heights are added
+};
+
+// What the samples without a height of a raster show.
+enum class LayerVoids : std::uint8_t {
+    Below,  // what lies under the layer
+    Fill,   // heights interpolated from around them
+    Height  // voidM
+};
+
+struct WorldLayer {
+    std::string name;  // for messages; the first file or the terrain if the file gives none
+    std::vector<std::filesystem::path>
+        files;            // paths or patterns, relative ones from the folder of the world file
+    std::string terrain;  // instead of files: "noise:ridged,seed=7"
+    std::string detail;   // instead of files: "strength=0.8", detail below what lies under it
+    LayerJoin join = LayerJoin::Replace;
+    LayerVoids voids = LayerVoids::Below;
+    double voidM = 0;     // metres, before scale and offsetM; magnitude at most 1e6
+    double featherM = 0;  // the width of the blend inwards from the rim of its coverage, [0, 1e6]
+    double scale = 1;     // height = offsetM + scale * the height that the files say; magnitude (0, 1e6]
+    double offsetM = 0;   // magnitude at most 1e6
+};
+
+struct WorldFile {
+    std::vector<WorldLayer> layers;  // at least one; the first lies at the bottom
+    double radiusM = earthRadiusM;   // of the planet, for widths in metres; [1, 1e9]
+    double fillM = 0;                // the height where no layer has one, metres; magnitude at most 1e6
+};
+
+// Reads a world file. The Error names the file, the line, the key and the expected value.
+Result<WorldFile> readWorldFile(const std::filesystem::path& path);
+
+// Returns the files that a layer's paths and patterns name, in their order. The Error names a pattern without
+// files, or a file that does not exist.
+Result<std::vector<std::filesystem::path>> filesOfLayer(const WorldLayer& layer);
+
+}  // namespace planet

@@ -1,0 +1,259 @@
+// Samples the layers of a world file, from the bottom up.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "planet/base/try.h"
+#include "planet/raster/rim_distance.h"
+#include "planet/source/height_source.h"
+#include "planet/source/height_source_kinds.h"
+#include "planet/source/raster_sampling.h"
+#include "planet/source/sample_tiles.h"
+#include "planet/source/terrain.h"
+#include "planet/source/terrain_sources.h"
+#include "planet/source/world_file.h"
+
+namespace planet {
+
+namespace {
+
+constexpr std::size_t leastCacheBytes = 8u << 20;  // of a layer
+constexpr int worldPieceSide = 65;                 // samples per side of a piece of a tile
+
+// Rasters on one grid, with the distance from their rim if it is needed.
+struct RasterPart {
+    RasterArea area;
+    std::optional<RimDistance> rim;
+};
+
+// One step of a world: what joins the heights that were made so far.
+struct WorldPart {
+    WorldLayer layer;
+    std::variant<std::unique_ptr<RasterPart>, HeightSource> content;
+};
+
+struct World {
+    std::vector<WorldPart> parts;
+    double fillM = 0;
+    double minM = 0;
+    double maxM = 0;
+};
+
+float joined(const WorldLayer& layer, float belowM, float heightM, double weight) {
+    const double below = static_cast<double>(belowM);
+    const double height = layer.offsetM + layer.scale * static_cast<double>(heightM);
+    switch (layer.join) {
+        case LayerJoin::Replace:
+            return static_cast<float>(below + weight * (height - below));
+        case LayerJoin::Max:
+            return static_cast<float>(below + weight * (std::max(below, height) - below));
+        case LayerJoin::Add:
+            return static_cast<float>(below + weight * height);
+    }
+    return belowM;
+}
+
+// Gives the voids of a layer their heights; those that stay NaN show what lies under them.
+Result<void> treatVoids(const WorldLayer& layer, const RasterArea& area, const PlacesOnGrid& onGrid,
+                        std::span<float> heights) {
+    if (layer.voids == LayerVoids::Fill) return fillVoids(area, onGrid, heights);
+    if (layer.voids == LayerVoids::Below) return {};
+    for (const std::size_t i : onGrid.index) {
+        if (std::isnan(heights[i])) heights[i] = static_cast<float>(layer.voidM);
+    }
+    return {};
+}
+
+Result<void> joinRasters(const WorldLayer& layer, const RasterPart& part, const PiecePlaces& places,
+                         std::span<float> worldM) {
+    const PlacesOnGrid onGrid = placesOnGrid(part.area, places);
+    if (onGrid.index.empty()) return {};
+    std::vector<float> heights(worldM.size(), std::numeric_limits<float>::quiet_NaN());
+    TRY(fillFrom(part.area, places, onGrid, heights));
+    TRY(treatVoids(layer, part.area, onGrid, heights));
+    std::vector<double> distances(onGrid.index.size());
+    if (part.rim) TRY(part.rim->at(onGrid.column, onGrid.row, distances));
+    for (std::size_t k = 0; k < onGrid.index.size(); ++k) {
+        const std::size_t i = onGrid.index[k];
+        if (std::isnan(heights[i])) continue;
+        const double weight = part.rim ? smoothly(0, part.rim->reachRad(), distances[k]) : 1;
+        worldM[i] = joined(layer, worldM[i], heights[i], weight);
+    }
+    return {};
+}
+
+Result<void> joinSource(const WorldLayer& layer, const HeightSource& source, const SampleTile& piece,
+                        std::span<float> worldM) {
+    std::vector<float> heights(worldM.size());
+    TRY(source.sample(piece, heights));
+    for (std::size_t i = 0; i < worldM.size(); ++i) worldM[i] = joined(layer, worldM[i], heights[i], 1);
+    return {};
+}
+
+Result<void> samplePiece(const World& world, const SampleTile& piece, float* out, std::size_t stride) {
+    const PiecePlaces places = placesOf(piece);
+    std::vector<float> heights(samplesIn(piece), static_cast<float>(world.fillM));
+    for (const WorldPart& part : world.parts) {
+        if (const auto* const source = std::get_if<HeightSource>(&part.content)) {
+            TRY(joinSource(part.layer, *source, piece, heights));
+        } else {
+            TRY(joinRasters(part.layer, *std::get<std::unique_ptr<RasterPart>>(part.content), places,
+                            heights));
+        }
+    }
+    const auto columns = static_cast<std::size_t>(piece.columns);
+    for (std::size_t i = 0; i < heights.size(); ++i)
+        out[i / columns * stride + i % columns] =
+            std::clamp(heights[i], static_cast<float>(world.minM), static_cast<float>(world.maxM));
+    return {};
+}
+
+// What a source of heights tells of itself besides its heights.
+struct Extent {
+    double minM = 0;
+    double maxM = 0;
+    int faceCells = 1;
+    std::uint64_t sampleCount = 0;
+    std::uint64_t missingCount = 0;
+};
+
+Extent extentOf(const RasterArea& area) {
+    return {static_cast<double>(area.statistics.minM), static_cast<double>(area.statistics.maxM),
+            area.faceCells, area.sampleCount, area.statistics.missingCount};
+}
+
+Extent extentOf(const HeightSource& source) {
+    return {source.minM, source.maxM, source.naturalFaceSize - 1, source.sampleCount, source.missingCount};
+}
+
+// A world that is being made, with what it tells of itself so far.
+class WorldBuilder {
+public:
+    WorldBuilder(const WorldFile& file, const HeightSourceSettings& settings)
+        : settings_(settings), radiusM_(file.radiusM), world_(std::make_unique<World>()) {
+        world_->fillM = world_->minM = world_->maxM = file.fillM;
+        settings_.cacheBytes = std::max(leastCacheBytes, settings.cacheBytes / file.layers.size());
+    }
+
+    Result<void> add(const WorldLayer& layer) {
+        if (!layer.detail.empty()) return addDetail(layer);
+        if (!layer.terrain.empty()) return addWhole(layer, layer.terrain);
+        TRY_ASSIGN(const auto files, filesOfLayer(layer));
+        // An image of the whole planet or six faces; anything else is georeferenced.
+        if (layer.files.size() == 1 && files == layer.files && coversPlanet(files[0]))
+            return addWhole(layer, files[0]);
+        return addRasters(layer, files);
+    }
+
+    HeightSource finish(std::string description) {
+        HeightSource source;
+        source.description = std::move(description);
+        source.naturalFaceSize = extent_.faceCells + 1;
+        source.minM = world_->minM;
+        source.maxM = world_->maxM;
+        source.sampleCount = extent_.sampleCount;
+        source.missingCount = extent_.missingCount;
+        source.sample = [world = std::shared_ptr<const World>(std::move(world_))](const SampleTile& tile,
+                                                                                  std::span<float> out) {
+            return sampleInPieces(tile, worldPieceSide, out,
+                                  [&](const SampleTile& piece, float* to, std::size_t stride) {
+                                      return samplePiece(*world, piece, to, stride);
+                                  });
+        };
+        return source;
+    }
+
+private:
+    void widen(const WorldLayer& layer, const Extent& part) {
+        double low = layer.offsetM + layer.scale * part.minM;
+        double high = layer.offsetM + layer.scale * part.maxM;
+        if (low > high) std::swap(low, high);
+        if (layer.voids == LayerVoids::Height) {
+            low = std::min(low, layer.offsetM + layer.scale * layer.voidM);
+            high = std::max(high, layer.offsetM + layer.scale * layer.voidM);
+        }
+        const bool adds = layer.join == LayerJoin::Add;
+        if (layer.join != LayerJoin::Max)
+            world_->minM = adds ? world_->minM + std::min(0.0, low) : std::min(world_->minM, low);
+        world_->maxM = adds ? world_->maxM + std::max(0.0, high) : std::max(world_->maxM, high);
+        extent_.faceCells = std::max(extent_.faceCells, part.faceCells);
+        extent_.sampleCount += part.sampleCount;
+        extent_.missingCount += part.missingCount;
+    }
+
+    Result<void> addWhole(const WorldLayer& layer, const std::filesystem::path& path) {
+        TRY_ASSIGN(auto source, openHeightSource(path, settings_));
+        // The first layer covers the planet, so the height without any does not count.
+        if (world_->parts.empty() && layer.join == LayerJoin::Replace) {
+            world_->minM = std::numeric_limits<double>::infinity();
+            world_->maxM = -world_->minM;
+        }
+        widen(layer, extentOf(source));
+        world_->parts.push_back({layer, std::move(source)});
+        return {};
+    }
+
+    Result<void> addRasters(const WorldLayer& layer, const std::vector<std::filesystem::path>& files) {
+        TRY_ASSIGN(auto areas, openRasterAreas(files, settings_));
+        // Of rasters on different grids, the finest lies on top.
+        std::ranges::reverse(areas);
+        for (RasterArea& area : areas) {
+            widen(layer, extentOf(area));
+            auto part = std::make_unique<RasterPart>(RasterPart{std::move(area), {}});
+            if (layer.featherM > 0) part->rim.emplace(part->area, std::min(1.0, layer.featherM / radiusM_));
+            world_->parts.push_back({layer, std::move(part)});
+        }
+        return {};
+    }
+
+    // Makes the layers so far a source of its own, and refines it.
+    Result<void> addDetail(const WorldLayer& layer) {
+        const bool isPlain = layer.detail.ends_with(':');
+        TRY_ASSIGN(const auto terrain, terrainFromText(layer.detail + (isPlain ? "of=." : ",of=.")));
+        if (terrain.of != ".") {
+            return badInput(fmt::format(
+                "detail is \"{}\"; expected only its settings, because it refines what lies under it",
+                layer.detail));
+        }
+        const Extent extent = extent_;
+        TRY_ASSIGN(auto refined, amplified(finish({}), std::get<DetailTerrain>(terrain.settings)));
+        world_ = std::make_unique<World>();
+        world_->minM = refined.minM;
+        world_->maxM = refined.maxM;
+        extent_ = {refined.minM, refined.maxM, refined.naturalFaceSize - 1, extent.sampleCount,
+                   extent.missingCount};
+        world_->parts.push_back({layer, std::move(refined)});
+        return {};
+    }
+
+    HeightSourceSettings settings_;
+    double radiusM_;
+    std::unique_ptr<World> world_;
+    Extent extent_;
+};
+
+}  // namespace
+
+Result<HeightSource> openWorld(const std::filesystem::path& path, const HeightSourceSettings& settings) {
+    TRY_ASSIGN(const auto file, readWorldFile(path));
+    WorldBuilder builder(file, settings);
+    for (const WorldLayer& layer : file.layers) {
+        if (const Result<void> added = builder.add(layer); !added) {
+            const Error& error = added.error();
+            return tl::unexpected(Error{error.kind, fmt::format("{} (layer \"{}\" of {})", error.message,
+                                                                layer.name, path.string())});
+        }
+    }
+    return builder.finish(fmt::format("{}, {} layer{}", path.filename().string(), file.layers.size(),
+                                      file.layers.size() == 1 ? "" : "s"));
+}
+
+}  // namespace planet
