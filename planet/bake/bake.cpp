@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <iterator>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "planet/bake/bake_tile.h"
+#include "planet/bake/bake_tree.h"
 #include "planet/bake/colour_bake.h"
 #include "planet/bake/level_images.h"
 #include "planet/base/atomic_file.h"
@@ -25,85 +28,124 @@ namespace planet {
 
 namespace {
 
-// Takes baked tiles in quadtree order, appends their blocks to the file, and merges four siblings as soon as
-// they are complete, so it keeps at most three chunks per level. It also keeps coarse chunks, whose cells are
-// wider than a tile, because their tight metric is not known yet.
+// Takes baked units in quadtree order, appends their blocks to the file, and merges four siblings as soon as
+// they are complete, so it keeps at most three chunks per level. It holds back the chunks whose tight metric
+// is not known yet, because a unit under them is narrower than their cells, and the siblings of such chunks.
 class Assembler {
 public:
-    Assembler(const BakeContext& bake, int tileLevel, AtomicFile& file)
+    Assembler(const BakeContext& bake, AtomicFile& file)
         : bake_(bake),
           file_(file),
-          coarsestLevel_(coarsestLevelOfTiles(bake.shape, tileLevel)),
-          waiting_(static_cast<std::size_t>(tileLevel) + 1),
-          offM_(static_cast<std::size_t>(tileLevel)),
-          coarse_(static_cast<std::size_t>(std::max(1, coarsestLevel_))) {}
+          groups_(static_cast<std::size_t>(leafLevel(bake.shape)) + 1),
+          above_(groups_.size()),
+          held_(groups_.size()) {}
 
     Result<void> add(BakedTile&& tile) {
         const std::uint64_t shift = file_.size() - provisionalOrigin;
         if (tile.root.entry.children.exists()) tile.root.entry.children.offset += shift;
         TRY(file_.append(tile.blocks));
+        const auto coarsest = static_cast<std::size_t>(coarsestLevelOfTiles(tile.root.id.level, bake_.shape));
+        for (std::size_t level = 0; level < coarsest; ++level) above_[level].isUnknown = true;
         for (std::size_t i = 0; i < tile.offAboveM.size(); ++i) {
-            double& offM = offM_[static_cast<std::size_t>(coarsestLevel_) + i];
+            double& offM = above_[coarsest + i].offM;
             offM = std::max(offM, tile.offAboveM[i]);
         }
-        return addChunk(std::move(tile.root));
+        return addChunk({std::move(tile.root), false});
     }
 
-    // Bakes the coarse levels after all tiles are added. Calls goOn before each block is read, from one
-    // thread at a time.
+    // Bakes the chunks that were held back, after all units are added. Calls goOn before each block is read,
+    // from one thread at a time.
     Result<void> finish(int threads, const std::function<bool()>& goOn) {
-        for (int level = coarsestLevel_ - 1; level >= 0; --level) {
-            if (level < coarsestLevel_ - 1) {
-                TRY(mergeCoarse(level));
+        for (std::size_t level = held_.size(); level-- > 0;) {
+            std::vector<Chunk>& chunks = held_[level];
+            std::sort(chunks.begin(), chunks.end(), [](const Chunk& a, const Chunk& b) {
+                return indexInQuadtreeOrder(a.baked.id) < indexInQuadtreeOrder(b.baked.id);
+            });
+            TRY(search(chunks, threads, goOn));
+            if (level == 0) break;
+            for (std::size_t i = 0; i < chunks.size(); i += quadrantCount) {
+                TRY_ASSIGN(auto parent, merge(std::span(chunks).subspan(i).first<quadrantCount>(), 0));
+                held_[level - 1].push_back({std::move(parent), true});
             }
-            TRY(searchCoarse(level, threads, goOn));
+            chunks = {};
         }
         return {};
     }
 
-    std::span<const BakedChunk> roots() const { return coarse_[0]; }
+    const BakedChunk& root(Face face) const { return held_[0][static_cast<std::size_t>(face)].baked; }
 
 private:
-    using Siblings = std::span<const BakedChunk, quadrantCount>;
+    struct Chunk {
+        BakedChunk baked;
+        bool isUnknown = false;  // its tight metric has to be searched for
+    };
+    // The siblings that have come so far.
+    struct Group {
+        std::vector<Chunk> chunks;
+        std::size_t count = 0;  // including those that finish() makes
+        bool isHeld = false;
+    };
+    // The chunk of a level whose units are being added.
+    struct Above {
+        double offM = 0;  // from the finest samples of its units
+        bool isUnknown = false;
+    };
 
-    Result<void> addChunk(BakedChunk&& chunk) {
-        const std::size_t level = chunk.id.level;
-        if (level == 0 || chunk.id.level < coarsestLevel_) {
-            coarse_[level].push_back(std::move(chunk));
+    Result<void> addChunk(Chunk&& chunk) {
+        const ChunkId id = chunk.baked.id;
+        if (id.level == 0) {
+            held_[0].push_back(std::move(chunk));
             return {};
         }
-        std::vector<BakedChunk>& siblings = waiting_[level];
-        siblings.push_back(std::move(chunk));
-        if (siblings.size() < quadrantCount) return {};
-        TRY_ASSIGN(auto parent, merge(Siblings(siblings), std::exchange(offM_[level - 1], 0)));
-        siblings.clear();
-        return addChunk(std::move(parent));
+        Group& group = groups_[id.level];
+        group.isHeld = group.isHeld || chunk.isUnknown;
+        group.chunks.push_back(std::move(chunk));
+        return countSibling(id);
     }
 
-    Result<BakedChunk> merge(Siblings children, double finestDistanceM) {
+    // Counts a chunk that finish() makes.
+    Result<void> addLater(const ChunkId& id) {
+        if (id.level == 0) return {};
+        groups_[id.level].isHeld = true;
+        return countSibling(id);
+    }
+
+    Result<void> countSibling(const ChunkId& id) {
+        Group& group = groups_[id.level];
+        if (++group.count < quadrantCount) return {};
+        Group whole = std::exchange(group, {});
+        const Above above = std::exchange(above_[id.level - 1u], {});
+        if (!whole.isHeld) {
+            TRY_ASSIGN(auto parent, merge(std::span(whole.chunks).first<quadrantCount>(),
+                                          above.isUnknown ? 0 : above.offM));
+            return addChunk({std::move(parent), above.isUnknown});
+        }
+        std::move(whole.chunks.begin(), whole.chunks.end(), std::back_inserter(held_[id.level]));
+        return addLater(parentOf(id));
+    }
+
+    Result<BakedChunk> merge(std::span<Chunk, quadrantCount> children, double finestDistanceM) {
+        std::array<BakedChunk, quadrantCount> baked;
+        for (std::size_t q = 0; q < baked.size(); ++q) baked[q] = std::move(children[q].baked);
         std::vector<std::byte> block;
-        BakedChunk parent = mergeChildren(bake_, parentOf(children[0].id), children, finestDistanceM,
-                                          file_.size(), scratch_, block);
+        BakedChunk parent = mergeChildren(bake_, parentOf(baked[0].id), baked, finestDistanceM, file_.size(),
+                                          scratch_, block);
         TRY(file_.append(block));
         return parent;
     }
 
-    Result<void> mergeCoarse(int level) {
-        const std::span<const BakedChunk> below = coarse_[static_cast<std::size_t>(level) + 1];
-        for (std::size_t i = 0; i < below.size(); i += quadrantCount) {
-            TRY_ASSIGN(auto parent, merge(below.subspan(i).first<quadrantCount>(), 0));
-            coarse_[static_cast<std::size_t>(level)].push_back(std::move(parent));
+    // Raises the tight metric of those of a level's chunks that need it to their distance from the finest
+    // samples.
+    Result<void> search(std::vector<Chunk>& chunks, int threads, const std::function<bool()>& goOn) {
+        std::vector<BakedChunk*> unknown;
+        for (Chunk& chunk : chunks) {
+            if (chunk.isUnknown) unknown.push_back(&chunk.baked);
         }
-        return {};
-    }
-
-    // Raises the tight metric of a level's chunks to their distance from the finest samples.
-    Result<void> searchCoarse(int level, int threads, const std::function<bool()>& goOn) {
-        TRY_ASSIGN(const auto written, writtenSoFar());
+        if (unknown.empty()) return {};
+        TRY_ASSIGN(const auto written, writtenSoFar(unknown[0]->entry.minStep));
         const ReadChildren readChildren = [&](const ChunkData& parent) {
-            return childrenOf(written, parent);
+            return written.readChildren(parent.id, parent.children, parent.heights);
         };
-        std::vector<BakedChunk>& chunks = coarse_[static_cast<std::size_t>(level)];
         std::mutex mutex;  // guards outcome; held during calls of goOn
         Result<void> outcome;
         const auto mayGoOn = [&] {
@@ -111,23 +153,22 @@ private:
             if (outcome && !goOn()) outcome = cancelled();
             return outcome.has_value();
         };
-        parallelFor(threads, chunks.size(), [&](std::size_t i) {
+        parallelFor(threads, unknown.size(), [&](std::size_t i) {
+            ChunkEntry& entry = unknown[i]->entry;
             const Result<double> offM =
-                searchFinestDistance(bake_.shape, dataOf(chunks[i]), readChildren, mayGoOn);
+                searchFinestDistance(bake_.shape, dataOf(*unknown[i]), readChildren, mayGoOn);
             const std::lock_guard lock(mutex);
             if (!offM && outcome) outcome = tl::unexpected(offM.error());
-            if (!outcome) return;
-            ChunkEntry& entry = chunks[i].entry;
-            entry.deltaTightM = tightMetric(*offM, entry.deltaTightM, entry.deltaCM);
+            if (outcome) entry.deltaTightM = tightMetric(*offM, entry.deltaTightM, entry.deltaCM);
         });
         return outcome;
     }
 
-    // Opens the unfinished file, with a temporary header.
-    Result<ChunkFile> writtenSoFar() {
+    // Opens the unfinished file, with a temporary header. anyStep: a step of the planet.
+    Result<ChunkFile> writtenSoFar(std::int16_t anyStep) {
         ChunkFileInfo info;
         info.shape = bake_.shape;
-        info.minStep = info.maxStep = coarse_[static_cast<std::size_t>(coarsestLevel_) - 1][0].entry.minStep;
+        info.minStep = info.maxStep = anyStep;
         TRY(file_.overwrite(0, headerBytes(info, file_.size())));
         return ChunkFile::open(
             file_.path().string(), file_.size(),
@@ -140,25 +181,11 @@ private:
                 entry.maxStep, entry.children, chunk.heights};
     }
 
-    Result<std::array<ChunkData, quadrantCount>> childrenOf(const ChunkFile& written,
-                                                            const ChunkData& parent) const {
-        if (parent.id.level + 1 >= coarsestLevel_) {
-            return written.readChildren(parent.id, parent.children, parent.heights);
-        }
-        const std::vector<BakedChunk>& level = coarse_[parent.id.level + 1u];
-        const std::uint64_t first = quadrantCount * indexInQuadtreeOrder(parent.id);
-        std::array<ChunkData, quadrantCount> children;
-        for (std::size_t q = 0; q < children.size(); ++q) children[q] = dataOf(level[first + q]);
-        return children;
-    }
-
     const BakeContext& bake_;
     AtomicFile& file_;
-    int coarsestLevel_;  // coarsest level whose tight metric is computed from tiles
-    std::vector<std::vector<BakedChunk>> waiting_;  // by level
-    std::vector<double> offM_;                      // by level, of the chunk whose tiles are being added
-    // The levels above coarsestLevel_, or only the roots if there are none; each in quadtree order.
-    std::vector<std::vector<BakedChunk>> coarse_;
+    std::vector<Group> groups_;             // by level
+    std::vector<Above> above_;              // by level
+    std::vector<std::vector<Chunk>> held_;  // by level; the roots are at level 0
     BakeScratch scratch_;
 };
 
@@ -188,38 +215,39 @@ private:
     Stopwatch sinceReport_;
 };
 
-Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Assembler& assembler,
+Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, Assembler& assembler,
                        ProgressMeter& meter) {
-    const std::uint64_t tileCount = std::uint64_t{faceCount} << (2 * tileLevel);
-    const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> tileLevel);
-    // The tiles in progress, in a ring buffer: they end in the order in which they began.
+    TreeWalk walk(bake.source, bake.shape, tileLevels);
+    // The units in progress, in a ring buffer: they end in the order in which they began.
     struct Work {
-        ChunkId id;
+        TreeUnit unit;
         Result<BakedTile> tile;
     };
     std::vector<Work> underWay(static_cast<std::size_t>(threads) * 3);
     tbb::enumerable_thread_specific<BakeScratch> scratches;
     Result<void> outcome;
     std::atomic<bool> stop = false;
-    std::uint64_t next = 0;
+    std::size_t begun = 0;
     // Input and output run in order, one at a time; only the output uses outcome.
     const auto begin = [&](tbb::flow_control& control) -> std::size_t {
-        if (stop || next == tileCount) {
+        const std::optional<TreeUnit> unit = stop ? std::nullopt : walk.next();
+        if (!unit) {
             control.stop();
             return 0;
         }
-        const std::size_t place = next % underWay.size();
-        underWay[place].id = chunkInQuadtreeOrder(next++, tileLevel);
+        const std::size_t place = begun++ % underWay.size();
+        underWay[place].unit = *unit;
         return place;
     };
     const auto bakeOne = [&](std::size_t place) {
-        underWay[place].tile = bakeTile(bake, underWay[place].id, scratches.local());
+        underWay[place].tile = bakeTile(bake, underWay[place].unit, scratches.local());
         return place;
     };
-    const auto write = [&](Result<BakedTile>&& tile) {
-        if (!tile) {
-            outcome = tl::unexpected(tile.error());
-        } else if (auto added = assembler.add(*std::move(tile)); !added) {
+    const auto write = [&](Work&& work) {
+        const auto cells = static_cast<std::uint64_t>(cellsAlong(work.unit, bake.shape));
+        if (!work.tile) {
+            outcome = tl::unexpected(work.tile.error());
+        } else if (auto added = assembler.add(*std::move(work.tile)); !added) {
             outcome = added;
         } else if (!meter.add(cells * cells)) {
             outcome = cancelled();
@@ -227,7 +255,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevel, int threads, Asse
         if (!outcome) stop = true;
     };
     const auto writeOne = [&](std::size_t place) {
-        if (outcome) write(std::move(underWay[place].tile));
+        if (outcome) write(std::move(underWay[place]));
     };
     using tbb::filter_mode;
     Handover handover;
@@ -252,17 +280,17 @@ Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, Ato
     info.shape = bake.shape;
     info.missingSamples = bake.source.missingCount;
     info.source = bake.source.description;
-    info.minStep = assembler.roots()[0].entry.minStep;
-    info.maxStep = assembler.roots()[0].entry.maxStep;
-    for (const BakedChunk& root : assembler.roots()) {
+    info.minStep = assembler.root(Face::PosX).entry.minStep;
+    info.maxStep = assembler.root(Face::PosX).entry.maxStep;
+    for (const Face face : allFaces) {
+        const BakedChunk& root = assembler.root(face);
         info.minStep = std::min(info.minStep, root.entry.minStep);
         info.maxStep = std::max(info.maxStep, root.entry.maxStep);
         std::vector<std::byte> block;
-        if (leafLevel(bake.shape) > 0) putEntry(block, root.entry, file.size());
+        putIndex(block, {&root.entry, 1}, file.size());
         encodeGrid(root.heights, chunkSize(bake.shape), block);
         ByteWriter(block).put(rootChecksum(block, root.id.face));
-        info.roots[static_cast<std::size_t>(root.id.face)] = {file.size(),
-                                                              static_cast<std::uint32_t>(block.size())};
+        info.roots[static_cast<std::size_t>(face)] = {file.size(), static_cast<std::uint32_t>(block.size())};
         TRY(file.append(block));
     }
     return {};
@@ -283,7 +311,8 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     const Stopwatch stopwatch;
     TRY(checkBakeSettings(settings));
     TRY_ASSIGN(const auto shape, chooseShape(source, settings));
-    const int tileLevel = tileLevelOf(shape, settings.tileLevels);
+    const int tileLevels = leafLevel(shape) - tileLevelOf(shape, settings.tileLevels);
+    const TreeCount tree = countTree(source, shape).value();
     const BakeContext context{source, shape, settings.compressionLevel};
     std::uint64_t colourTiles = 0;
     if (colour) {
@@ -293,13 +322,14 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
 
     TRY_ASSIGN(auto file, AtomicFile::create(output, settings.fileCalls));
     TRY(file.append(std::vector<std::byte>(chunkFileHeaderBytes)));
-    Assembler assembler(context, tileLevel, file);
-    const auto cells = static_cast<std::uint64_t>(faceCells(shape));
-    ProgressMeter meter(progress, faceCount * cells * cells + colourTiles * samplesPerColourTile);
+    Assembler assembler(context, file);
+    ProgressMeter meter(progress, tree.leafCells + colourTiles * samplesPerColourTile);
     const int threads = bakeThreads(settings);
-    TRY(bakeTiles(context, tileLevel, threads, assembler, meter));
+    TRY(bakeTiles(context, tileLevels, threads, assembler, meter));
     TRY(assembler.finish(threads, [&] { return meter.add(0); }));
     ChunkFileInfo info;
+    info.chunks = tree.chunks;
+    info.coarsestLeafLevel = tree.coarsestLeafLevel;
     TRY(writeRoots(context, assembler, file, info));
     const std::uint64_t bytesWithoutColours = file.size();
     if (colour) {
@@ -314,14 +344,16 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     }
     BakeReport report;
     report.shape = shape;
-    report.samples = sampleCountOf(shape);
-    report.chunks = chunkCountOf(shape);
+    report.samples = sampleCountOf(info);
+    report.chunks = info.chunks;
+    report.coarsestLeafLevel = info.coarsestLeafLevel;
     report.fileBytes = fileBytes;
     report.missingSamples = source.missingCount;
     report.colourTiles = colourTiles;
     report.colourBytes = fileBytes - bytesWithoutColours;
     if (colour) report.colourNotice = colour->notice;
-    for (const BakedChunk& root : assembler.roots()) {
+    for (const Face face : allFaces) {
+        const BakedChunk& root = assembler.root(face);
         report.largestDeltaCM = std::max(report.largestDeltaCM, root.entry.deltaCM);
         report.largestDeltaTightM = std::max(report.largestDeltaTightM, root.entry.deltaTightM);
     }

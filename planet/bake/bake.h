@@ -1,5 +1,9 @@
 // Bakes a height source into a chunk file: bottom-up, streamed in quadtree order, in bounded memory.
 //
+// The tree is as deep as the source is fine (bake_tree.h). Every sample is taken with the filter of the
+// finest grid, whatever the level of its leaf, so a height depends only on its place. An edge between leaves
+// of different levels thus has equal heights where both have a vertex.
+//
 // The geometric error δg of a chunk is the largest 3-D distance on the sphere, metres, between a vertex that
 // its children have and it lacks, and the point of its mesh that replaces the vertex: the middle of an edge
 // or diagonal. Distances at the same place bound every point of the finer surface, because the finer
@@ -8,10 +12,10 @@
 // δg; Ulrich 2002 for chunks). The tight metric is the exact distance of a chunk from its finest samples
 // (finest_distance.h), or its children's metric if that is larger.
 //
-// The bake keeps in memory three tiles per thread, three chunks per level, and all chunks of levels whose
-// cells are wider than a tile. For the distances of those it searches the file once the finer levels are
-// written. They have about one sample in 50,000 of the finest; a planet with faces of 4097 and chunks of 33
-// has none.
+// The bake works on complete subtrees of up to 128 cells, each with leaves of one level. It keeps in memory
+// three of them per thread, three chunks per level, and all chunks whose cells are wider than a subtree below
+// them. For the distances of those it searches the file once the finer levels are written. In a dense planet
+// they have about one sample in 50,000 of the finest; with faces of 4097 and chunks of 33 there are none.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +33,7 @@ namespace planet {
 
 struct BakeProgress {
     std::uint64_t samplesDone = 0;
-    std::uint64_t samplesTotal = 0;  // finest-level samples, plus texels of colour tiles
+    std::uint64_t samplesTotal = 0;  // samples of leaves, plus texels of colour tiles
     double elapsedS = 0;
     double samplesPerS = 0;
     double remainingS = 0;
@@ -39,8 +43,9 @@ using BakeProgressCallback = std::function<bool(const BakeProgress&)>;
 
 struct BakeReport {
     PlanetShape shape;
-    std::uint64_t samples = 0;  // distinct finest-level samples
+    std::uint64_t samples = 0;  // of all leaves, each distinct
     std::uint64_t chunks = 0;
+    int coarsestLeafLevel = 0;  // the deepest level if the tree is dense
     std::uint64_t fileBytes = 0;
     std::uint64_t missingSamples = 0;
     float largestDeltaCM = 0;  // of the six roots, metres

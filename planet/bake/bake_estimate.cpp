@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "planet/bake/bake_tile.h"
+#include "planet/bake/bake_tree.h"
 #include "planet/bake/spread_places.h"
 #include "planet/base/parallel.h"
 #include "planet/base/stopwatch.h"
@@ -46,8 +48,8 @@ struct Sample {
 };
 
 // Reads the four corners of a tile, so that the source loads its blocks there; cached blocks take no time.
-Result<void> readCorners(const BakeContext& bake, const ChunkId& root) {
-    const SampleTile square = tileOf(bake.shape, root);
+Result<void> readCorners(const BakeContext& bake, const TreeUnit& unit) {
+    const SampleTile square = tileOf(bake.shape, unit.root, unit.leafLevel);
     for (const int corner : {0, 1, 2, 3}) {
         float height = 0;
         SampleTile tile = square;
@@ -59,19 +61,19 @@ Result<void> readCorners(const BakeContext& bake, const ChunkId& root) {
     return {};
 }
 
-Result<Sample> bakePlace(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch) {
+Result<Sample> bakePlace(const BakeContext& bake, const TreeUnit& unit, BakeScratch& scratch) {
     Sample sample;
     const Stopwatch reading;
-    TRY(readCorners(bake, root));
+    TRY(readCorners(bake, unit));
     sample.readS = reading.elapsedS();
     const Stopwatch baking;
-    TRY_ASSIGN(const auto tile, bakeTile(bake, root, scratch));
+    TRY_ASSIGN(const auto tile, bakeTile(bake, unit, scratch));
     sample.bakeS = baking.elapsedS();
 
-    const auto cells = static_cast<std::uint64_t>(faceCells(bake.shape) >> root.level);
+    const auto cells = static_cast<std::uint64_t>(cellsAlong(unit, bake.shape));
     sample.finestSamples = cells * cells;
     const std::uint64_t lastBlock = tile.root.entry.children.size;
-    if (root.level + 1 == leafLevel(bake.shape)) {
+    if (unit.root.level + 1 == unit.leafLevel) {
         sample.leafBlocks = 1;
         sample.leafBlockBytes = lastBlock;
     } else {
@@ -84,7 +86,7 @@ Result<Sample> bakePlace(const BakeContext& bake, const ChunkId& root, BakeScrat
     return sample;
 }
 
-Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<ChunkId>& roots, int threads,
+Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<TreeUnit>& units, int threads,
                           const std::function<bool()>& goOn) {
     std::mutex mutex;  // guards outcome; held during calls of goOn
     Result<Sample> outcome;
@@ -93,9 +95,9 @@ Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<ChunkId>& r
         return !outcome;
     };
     tbb::enumerable_thread_specific<BakeScratch> scratches;
-    parallelFor(threads, roots.size(), [&](std::size_t i) {
+    parallelFor(threads, units.size(), [&](std::size_t i) {
         if (hasFailed()) return;
-        const Result<Sample> sample = bakePlace(bake, roots[i], scratches.local());
+        const Result<Sample> sample = bakePlace(bake, units[i], scratches.local());
         const std::lock_guard lock(mutex);
         if (!outcome) return;
         if (!sample) {
@@ -108,10 +110,10 @@ Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<ChunkId>& r
     return outcome;
 }
 
-// Returns the bytes of all sibling blocks, level by level from the finest, each level with a quarter as many
-// blocks as the one before. A coarser level's blocks are larger, because its samples are farther apart. So
-// the estimate adds the measured growth for each level, up to the size of uncoded samples.
-double estimatedBlockBytes(const PlanetShape& shape, const Sample& sample) {
+// Returns the bytes of all sibling blocks, by the height of their parents, from the leaves' parents upwards.
+// A coarser level's blocks are larger, because its samples are farther apart. So the estimate adds the
+// measured growth for each level, up to the size of uncoded samples.
+double estimatedBlockBytes(const PlanetShape& shape, const TreeCount& tree, const Sample& sample) {
     const double cells = chunkCells(shape);
     const double bareBytes = 2 * ((2 * cells + 1) * (2 * cells + 1) - (cells + 1) * (cells + 1)) + 128;
     double bytes = static_cast<double>(sample.leafBlockBytes) / static_cast<double>(sample.leafBlocks);
@@ -122,8 +124,8 @@ double estimatedBlockBytes(const PlanetShape& shape, const Sample& sample) {
                                              static_cast<double>(sample.belowUpperBytes) -
                                          1);
     double total = 0;
-    for (int level = leafLevel(shape) - 1; level >= 0; --level) {
-        total += bytes * static_cast<double>(std::uint64_t{faceCount} << (2 * level));
+    for (const std::uint64_t blocks : tree.refinedByHeight) {
+        total += bytes * static_cast<double>(blocks);
         bytes = std::clamp(bytes + growth, 0.0, bareBytes);
     }
     return total;
@@ -138,7 +140,7 @@ Result<double> rootBytes(const BakeContext& bake, BakeScratch& scratch) {
     }
     double bytes = 0;
     for (const Face face : allFaces) {
-        TRY_ASSIGN(const auto tile, bakeTile(bake, {face, 0, 0, 0}, scratch));
+        TRY_ASSIGN(const auto tile, bakeTile(bake, {{face, 0, 0, 0}, 0}, scratch));
         std::vector<std::byte> coded;
         encodeGrid(tile.root.heights, chunkSize(bake.shape), coded);
         bytes += static_cast<double>(coded.size() + 8);
@@ -146,17 +148,56 @@ Result<double> rootBytes(const BakeContext& bake, BakeScratch& scratch) {
     return bytes;
 }
 
+// A random choice of units, of as many as are wanted, made while they come by. Each has the same chance.
+struct Choice {
+    std::uint64_t wanted = 0;
+    std::uint64_t seen = 0;
+    std::vector<TreeUnit> units{};
+
+    void offer(const TreeUnit& unit) {
+        const std::uint64_t place = scrambled64(seen) % (seen + 1);
+        ++seen;
+        if (units.size() < wanted)
+            units.push_back(unit);
+        else if (place < wanted)
+            units[static_cast<std::size_t>(place)] = unit;
+    }
+};
+
+// Returns leaves' parents of a sparse tree, and fewer units of two levels of blocks, if there are any.
+Result<std::vector<TreeUnit>> sparsePlaces(const BakeContext& bake, std::uint64_t wanted, std::uint64_t fewer,
+                                           const std::function<bool()>& goOn) {
+    constexpr std::uint64_t unitsBetweenCalls = 1024;
+    Choice single{wanted};
+    Choice twoLevels{fewer};
+    std::uint64_t walked = 0;
+    TreeWalk walk(bake.source, bake.shape, 2);
+    while (const std::optional<TreeUnit> unit = walk.next()) {
+        if (++walked % unitsBetweenCalls == 0 && goOn && !goOn()) return cancelled();
+        const int levels = unit->leafLevel - unit->root.level;
+        if (levels == 1) single.offer(*unit);
+        if (levels < 2) continue;
+        twoLevels.offer(*unit);
+        for (int q = 0; q < quadrantCount; ++q) single.offer({childOf(unit->root, q), unit->leafLevel});
+    }
+    single.units.insert(single.units.end(), twoLevels.units.begin(), twoLevels.units.end());
+    return single.units;
+}
+
 // Returns places for single blocks and, if the planet has two levels of blocks, fewer places for two levels.
-std::vector<ChunkId> placesToBake(const PlanetShape& shape) {
+Result<std::vector<TreeUnit>> placesToBake(const BakeContext& bake, const std::function<bool()>& goOn) {
+    const PlanetShape& shape = bake.shape;
     const std::uint64_t cells = 2 * static_cast<std::uint64_t>(chunkCells(shape));
     const std::uint64_t wanted = std::clamp(samplesToBake / 2 / (cells * cells), fewestPlaces, mostPlaces);
-    std::vector<ChunkId> roots = spreadPlaces(leafLevel(shape) - 1, wanted);
-    if (leafLevel(shape) > 1) {
-        const std::vector<ChunkId> more =
-            spreadPlaces(leafLevel(shape) - 2, std::max(wanted / 4, fewestPlaces / 2));
-        roots.insert(roots.end(), more.begin(), more.end());
-    }
-    return roots;
+    const std::uint64_t fewer = std::max(wanted / 4, fewestPlaces / 2);
+    if (bake.source.finestCells) return sparsePlaces(bake, wanted, fewer, goOn);
+    std::vector<TreeUnit> units;
+    for (const ChunkId& root : spreadPlaces(leafLevel(shape) - 1, wanted))
+        units.push_back({root, leafLevel(shape)});
+    if (leafLevel(shape) == 1) return units;
+    for (const ChunkId& root : spreadPlaces(leafLevel(shape) - 2, fewer))
+        units.push_back({root, leafLevel(shape)});
+    return units;
 }
 
 Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSettings& settings,
@@ -166,10 +207,13 @@ Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSetti
     const BakeContext context{source, shape, settings.compressionLevel};
     if (goOn && !goOn()) return cancelled();
 
+    const std::optional<TreeCount> tree = countTree(source, shape, goOn);
+    if (!tree) return cancelled();
     BakeEstimate estimate;
     estimate.shape = shape;
-    estimate.samples = sampleCountOf(shape);
-    estimate.chunks = chunkCountOf(shape);
+    estimate.samples = tree->leafCells + 2;
+    estimate.chunks = tree->chunks;
+    estimate.coarsestLeafLevel = tree->coarsestLeafLevel;
     const Stopwatch stopwatch;
     BakeScratch scratch;
     TRY_ASSIGN(const auto roots, rootBytes(context, scratch));
@@ -178,8 +222,9 @@ Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSetti
     if (leafLevel(shape) == 0) return estimate;
 
     const int threads = bakeThreads(settings);
-    TRY_ASSIGN(const auto sample, bakePlaces(context, placesToBake(shape), threads, goOn));
-    estimate.fileBytes += estimatedBlockBytes(shape, sample);
+    TRY_ASSIGN(const auto places, placesToBake(context, goOn));
+    TRY_ASSIGN(const auto sample, bakePlaces(context, places, threads, goOn));
+    estimate.fileBytes += estimatedBlockBytes(shape, *tree, sample);
     estimate.seconds += (sample.readS + sample.bakeS * static_cast<double>(estimate.samples) /
                                             static_cast<double>(sample.finestSamples)) /
                         threads;

@@ -1,6 +1,6 @@
-// Estimates the cost of a bake by baking a few of its blocks in memory, in about a second. Any thread. The
-// estimate omits the search for the tight metric of levels whose cells are wider than a tile, which reads few
-// blocks.
+// Estimates the cost of a bake by baking a few of its blocks in memory, in about a second; for a sparse tree,
+// also in the time that it takes to visit the tree twice. Any thread. The estimate omits the search for the
+// tight metric of levels whose cells are wider than a tile, which reads few blocks.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,9 @@ namespace planet {
 
 struct BakeEstimate {
     PlanetShape shape;
-    std::uint64_t samples = 0;  // distinct finest-level samples
+    std::uint64_t samples = 0;  // of all leaves, each distinct
     std::uint64_t chunks = 0;
+    int coarsestLeafLevel = 0;               // the deepest level if the tree is dense
     double fileBytes = 0;                    // including colours
     double seconds = 0;                      // on this machine with the settings' threads, including colours
     std::optional<ColourEstimate> colour{};  // for a bake with colours

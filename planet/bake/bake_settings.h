@@ -29,9 +29,9 @@ struct BakeSettings {
         quantumM{};   // unset: the source's step, or for floats the finest that holds its range
     int threads = 0;  // 0: one per core
     int compressionLevel = defaultCompressionLevel;
-    // Folder to write each level of each face to, as 16-bit PNGs; empty: none.
+    // Folder to write each level of each face to that has chunks everywhere, as 16-bit PNGs; empty: none.
     std::filesystem::path debugLevelsFolder{};
-    // The number of levels above the finest that one task bakes, [0, 10]. Unset: as needed for squares of 128
+    // The number of levels above its leaves that one task bakes, [0, 10]. Unset: as needed for squares of 128
     // cells, at least one. Then neighbouring squares sample little twice, and a square fits a core's cache.
     // The chunks do not depend on it; the order of their blocks may.
     std::optional<int> tileLevels{};

@@ -43,7 +43,7 @@ std::vector<std::int16_t> everyOther(std::span<const std::int16_t> refined, std:
 BakedChunk cutLeaf(const BakeContext& bake, const ChunkId& id, const SampleTile& tile,
                    std::span<const std::int16_t> steps) {
     const auto side = static_cast<std::size_t>(chunkSize(bake.shape));
-    const SampleTile square = tileOf(bake.shape, id);
+    const SampleTile square = tileOf(bake.shape, id, id.level);
     BakedChunk leaf;
     leaf.id = id;
     leaf.heights.resize(side * side);
@@ -58,14 +58,15 @@ BakedChunk cutLeaf(const BakeContext& bake, const ChunkId& id, const SampleTile&
     return leaf;
 }
 
-BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, const SampleTile& tile,
+BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, int leafLevel, const SampleTile& tile,
                        BakeScratch& scratch, std::vector<std::byte>& blocks) {
-    if (id.level == leafLevel(bake.shape)) return cutLeaf(bake, id, tile, scratch.steps);
+    if (id.level == leafLevel) return cutLeaf(bake, id, tile, scratch.steps);
     std::array<BakedChunk, quadrantCount> children;
     for (int q = 0; q < quadrantCount; ++q) {
-        children[static_cast<std::size_t>(q)] = bakeSubtree(bake, childOf(id, q), tile, scratch, blocks);
+        children[static_cast<std::size_t>(q)] =
+            bakeSubtree(bake, childOf(id, q), leafLevel, tile, scratch, blocks);
     }
-    const bool aboveLeaves = id.level + 1 == leafLevel(bake.shape);
+    const bool aboveLeaves = id.level + 1 == leafLevel;
     const double finestDistanceM = aboveLeaves ? 0 : scratch.distances.of(id);
     return mergeChildren(bake, id, children, finestDistanceM, provisionalOrigin, scratch, blocks);
 }
@@ -116,19 +117,20 @@ int bakeThreads(const BakeSettings& settings) {
     return settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
 }
 
-Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch) {
-    const SampleTile tile = tileOf(bake.shape, root);
+Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeScratch& scratch) {
+    const SampleTile tile = tileOf(bake.shape, unit.root, unit.leafLevel);
     scratch.sampledM.resize(samplesIn(tile));
     scratch.steps.resize(samplesIn(tile));
     TRY(bake.source.sample(tile, scratch.sampledM));
     TRY(quantise(bake.shape, bake.source, scratch.sampledM, scratch.steps));
-    measureTile(bake.shape, root, scratch.steps, scratch.geometry, scratch.distances);
+    measureTile(shapeOfLevel(bake.shape, unit.leafLevel), unit.root, scratch.steps, scratch.geometry,
+                scratch.distances);
     BakedTile result;
     for (int level = scratch.distances.coarsestLevel;
-         level <= std::min(root.level - 1, leafLevel(bake.shape) - 2); ++level) {
+         level <= std::min(unit.root.level - 1, unit.leafLevel - 2); ++level) {
         result.offAboveM.push_back(scratch.distances.above(level));
     }
-    result.root = bakeSubtree(bake, root, tile, scratch, result.blocks);
+    result.root = bakeSubtree(bake, unit.root, unit.leafLevel, tile, scratch, result.blocks);
     return result;
 }
 
@@ -143,7 +145,12 @@ BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
     chunk.entry.maxStep = children[0].entry.maxStep;
     float childrenDeltaM = 0;
     float childrenTightM = 0;
-    for (const BakedChunk& child : children) {
+    bool aboveLeaves = false;
+    std::array<ChunkEntry, quadrantCount> entries;
+    for (std::size_t q = 0; q < children.size(); ++q) {
+        const BakedChunk& child = children[q];
+        entries[q] = child.entry;
+        aboveLeaves = aboveLeaves || !child.entry.children.exists();
         chunk.entry.minStep = std::min(chunk.entry.minStep, child.entry.minStep);
         chunk.entry.maxStep = std::max(chunk.entry.maxStep, child.entry.maxStep);
         childrenDeltaM = std::max(childrenDeltaM, child.entry.deltaCM);
@@ -151,15 +158,14 @@ BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
     }
     const double deltaG = geometricErrorM(bake.shape, parent, refined, scratch.geometry);
     chunk.entry.deltaCM = roundedUp(deltaG + childrenDeltaM);
-    const bool aboveLeaves = parent.level + 1 == leafLevel(bake.shape);
-    chunk.entry.deltaTightM =
-        tightMetric(aboveLeaves ? deltaG : finestDistanceM, childrenTightM, chunk.entry.deltaCM);
+    // The samples of a leaf child lie off the parent's surface by at most δg. For other children, δg is not
+    // larger than the distance from the samples below them.
+    const double ownM = aboveLeaves ? std::max(deltaG, finestDistanceM) : finestDistanceM;
+    chunk.entry.deltaTightM = tightMetric(ownM, childrenTightM, chunk.entry.deltaCM);
 
     const std::size_t start = blocks.size();
     const std::uint64_t offset = origin + start;
-    if (!aboveLeaves) {
-        for (const BakedChunk& child : children) putEntry(blocks, child.entry, offset);
-    }
+    putIndex(blocks, entries, offset);
     encodeRefinement(refined, chunkCells(bake.shape), bake.compressionLevel, blocks);
     ByteWriter(blocks).put(siblingChecksum(std::span(blocks).subspan(start), parent));
     chunk.entry.children = {offset, static_cast<std::uint32_t>(blocks.size() - start)};

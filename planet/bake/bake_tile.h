@@ -1,4 +1,4 @@
-// Bakes a square of the source into chunks and their blocks, for the bake and its estimate. Pure functions
+// Bakes a unit of the tree into chunks and their blocks, for the bake and its estimate. Pure functions
 // apart from the source; any thread, each with its own scratch.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planet/bake/bake_settings.h"
+#include "planet/bake/bake_tree.h"
 #include "planet/bake/finest_distance.h"
 #include "planet/base/result.h"
 #include "planet/format/chunk_file_types.h"
@@ -32,8 +33,8 @@ struct BakedChunk {
 struct BakedTile {
     BakedChunk root;
     std::vector<std::byte> blocks;  // of all descendants of the root, the root's children last
-    // The largest distances of the tile's finest samples from the chunks above it, metres: by level from
-    // coarsestLevelOfTiles to the one above the root, but at most to two above the finest.
+    // The largest distances of the unit's finest samples from the chunks above it, metres: by level from
+    // coarsestLevelOfTiles of its root to the one above the root, but at most to two above its leaves.
     std::vector<double> offAboveM;
 };
 
@@ -61,13 +62,13 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
 // Returns the number of threads; one per core if the setting is 0.
 int bakeThreads(const BakeSettings& settings);
 
-// Samples the square of a tile, the subtree of one task, and bakes it bottom-up. The Error names the source's
-// file, or a height that does not fit into 16 bits.
-Result<BakedTile> bakeTile(const BakeContext& bake, const ChunkId& root, BakeScratch& scratch);
+// Samples the square of a unit on the grid of its leaves, and bakes it bottom-up. The Error names the
+// source's file, or a height that does not fit into 16 bits.
+Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeScratch& scratch);
 
 // Appends the block of four children and returns their parent, made of every other row and column. Locations
-// in the file count from origin, the location of the first block. finestDistanceM is the parent's; a leaf's
-// parent computes its own.
+// in the file count from origin, the location of the first block. finestDistanceM: the parent's distance from
+// the finest samples two or more levels below it; those of its leaves are measured here.
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
                          std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
                          std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks);

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
+#include "planet/bake/bake_tree.h"
 #include "planet/bake/finest_distance.h"
 #include "planet/bake/quantise.h"
 #include "planet/base/percentile.h"
@@ -29,12 +31,17 @@ namespace {
 
 struct LevelTally {
     std::uint64_t chunks = 0;
+    std::uint64_t leaves = 0;
     std::uint64_t bytes = 0;
     std::vector<float> deltasM;
     double sumTightM = 0;
     float maxTightM = 0;
 
-    void add(float deltaCM, float deltaTightM) {
+    void add(const BlockLocation& children, float deltaCM, float deltaTightM) {
+        if (!children.exists()) {
+            ++leaves;
+            return;
+        }
         deltasM.push_back(deltaCM);
         sumTightM += deltaTightM;
         maxTightM = std::max(maxTightM, deltaTightM);
@@ -47,10 +54,14 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
     level.chunks += quadrantCount;
     level.bytes += block.size;
     TRY(spendOn(file, block, bytesLeft));
-    if (parent.level + 1 == leafLevel(file.info().shape)) return {};  // leaves: δc is 0, no index
+    if (parent.level + 1 == leafLevel(file.info().shape)) {
+        level.leaves += quadrantCount;
+        return {};
+    }
     TRY_ASSIGN(const auto entries, file.readEntries(parent, block));
-    for (const ChunkEntry& entry : entries) level.add(entry.deltaCM, entry.deltaTightM);
+    for (const ChunkEntry& entry : entries) level.add(entry.children, entry.deltaCM, entry.deltaTightM);
     for (std::size_t q = 0; q < entries.size(); ++q) {
+        if (!entries[q].children.exists()) continue;
         const ChunkId child = childOf(parent, static_cast<int>(q));
         TRY(tallyChildren(file, child, entries[q].children, levels, bytesLeft));
     }
@@ -61,6 +72,7 @@ LevelReport summarise(int level, LevelTally& tally) {
     LevelReport report;
     report.level = level;
     report.chunks = tally.chunks;
+    report.leaves = tally.leaves;
     report.bytes = tally.bytes;
     if (tally.deltasM.empty()) return report;
     const auto [least, most] = std::minmax_element(tally.deltasM.begin(), tally.deltasM.end());
@@ -92,86 +104,103 @@ struct EdgeHash {
 };
 struct SeenEdge {
     ChunkId chunk;
+    Edge edge;
     std::uint64_t hash;
 };
 
 using ReportProblem = std::function<void(const ChunkId& id, const std::string& what)>;
 
 // Recomputes the tight metric during a depth-first walk of the file, as a bake does: from the finest heights
-// of one tile at a time, and by a search if cells are wider than a tile.
+// of one complete subtree at a time, and by a search if cells are wider than a subtree.
 class TightVerifier {
 public:
     explicit TightVerifier(const ChunkFile& file)
         : file_(file),
           shape_(file.info().shape),
-          tileLevel_(tileLevelOf(shape_, std::nullopt)),
-          coarsestLevel_(coarsestLevelOfTiles(shape_, tileLevel_)),
-          offM_(static_cast<std::size_t>(tileLevel_)),
-          missedAtEntry_(static_cast<std::size_t>(leafLevel(shape_)) + 1) {}
+          levels_(leafLevel(shape_) - tileLevelOf(shape_, std::nullopt)),
+          above_(static_cast<std::size_t>(leafLevel(shape_)) + 1) {}
 
-    void enter(const ChunkData& chunk) {
-        missedAtEntry_[chunk.id.level] = missed_;
-        if (chunk.id.level == tileLevel_) {
-            finest_.assign(tileSide() * tileSide(), 0);
-            inTile_.clear();
-        }
-        if (chunk.id.level == leafLevel(shape_)) placeLeaf(chunk);
-    }
-
-    // Records that a block under the last entered chunk cannot be read.
-    void missed() { ++missed_; }
-
-    struct Below {
-        double deltaGM = 0;
-        float largestTightM = 0;  // of the children
-    };
-    void leave(const ChunkData& chunk, const Below& below, const ReportProblem& report) {
-        const int level = chunk.id.level;
-        const bool whole = missed_ == missedAtEntry_[chunk.id.level];
-        const Met met{chunk.id, chunk.deltaCM, chunk.deltaTightM, below.largestTightM};
-        if (level == leafLevel(shape_) - 1) {
-            if (whole) check(met, below.deltaGM, report);
-        } else if (level < coarsestLevel_) {
-            if (whole) search(chunk, met, report);
-        } else if (level < tileLevel_) {
-            const double offM = std::exchange(offM_[chunk.id.level], 0);
-            if (whole) check(met, offM, report);
-        } else if (level < leafLevel(shape_)) {
-            inTile_.push_back(met);
-        }
-        if (level == tileLevel_ && whole) finishTile(chunk.id, report);
-    }
-
-private:
     struct Met {
         ChunkId id;
         float deltaCM = 0;
         float deltaTightM = 0;
         float largestOfChildrenM = 0;
     };
+    // A complete subtree, whose leaves have one level (TreeUnit).
+    struct Unit {
+        int leafLevel = 0;
+        std::vector<std::int16_t> finest;  // the samples of its square on the leaves' grid
+        std::vector<Met> met;              // its chunks two or more levels above the leaves
+    };
+    struct Below {
+        double deltaGM = 0;
+        float largestTightM = 0;  // of the children
+        bool hasLeaves = false;
+        bool isWhole = true;  // every block under the chunk could be read
+        std::array<std::optional<Unit>, quadrantCount> units;
+    };
 
-    std::size_t tileSide() const { return static_cast<std::size_t>(faceCells(shape_) >> tileLevel_) + 1; }
+    static Unit unitOf(const ChunkData& leaf) { return {leaf.id.level, leaf.heights, {}}; }
 
-    void placeLeaf(const ChunkData& leaf) {
-        const auto side = static_cast<std::size_t>(chunkSize(shape_));
-        const std::uint32_t withinTile = (1u << (leafLevel(shape_) - tileLevel_)) - 1;
-        const std::size_t column = (leaf.id.x & withinTile) * (side - 1);
-        const std::size_t row = (leaf.id.y & withinTile) * (side - 1);
-        for (std::size_t j = 0; j < side; ++j) {
-            const auto from = std::span(leaf.heights).subspan(j * side, side);
-            const std::size_t to = (row + j) * tileSide() + column;
-            std::copy(from.begin(), from.end(), finest_.begin() + static_cast<std::ptrdiff_t>(to));
+    // Checks a chunk after everything under it. Returns the chunk as a unit if it is one.
+    std::optional<Unit> leave(const ChunkData& chunk, Below&& below, const ReportProblem& report) {
+        const Met met{chunk.id, chunk.deltaCM, chunk.deltaTightM, below.largestTightM};
+        if (std::optional<Unit> unit = joined(chunk.id, below)) {
+            if (unit->leafLevel == chunk.id.level + 1)
+                check(met, below.deltaGM, report);
+            else
+                unit->met.push_back(met);
+            return unit;
+        }
+        for (int q = 0; q < quadrantCount; ++q) {
+            if (const auto& unit = below.units[static_cast<std::size_t>(q)])
+                finish(childOf(chunk.id, q), *unit, report);
+        }
+        const Above above = std::exchange(above_[chunk.id.level], {});
+        if (!below.isWhole) return std::nullopt;
+        if (above.isUnknown)
+            search(chunk, met, report);
+        else
+            check(met, below.hasLeaves ? std::max(below.deltaGM, above.offM) : above.offM, report);
+        return std::nullopt;
+    }
+
+    // Checks the chunks of a unit that belongs to no larger one.
+    void finish(const ChunkId& root, const Unit& unit, const ReportProblem& report) {
+        measureTile(shapeOfLevel(shape_, unit.leafLevel), root, unit.finest, scratch_, distances_);
+        for (const Met& met : unit.met) check(met, distances_.of(met.id), report);
+        const int coarsest = coarsestLevelOfTiles(root.level, shape_);
+        for (int level = 0; level < coarsest; ++level)
+            above_[static_cast<std::size_t>(level)].isUnknown = true;
+        for (int level = coarsest; level <= std::min(root.level - 1, unit.leafLevel - 2); ++level) {
+            double& offM = above_[static_cast<std::size_t>(level)].offM;
+            offM = std::max(offM, distances_.above(level));
         }
     }
 
-    void finishTile(const ChunkId& tile, const ReportProblem& report) {
-        measureTile(shape_, tile, finest_, scratch_, distances_);
-        for (const Met& met : inTile_) check(met, distances_.of(met.id), report);
-        const int end = std::min(tileLevel_, leafLevel(shape_) - 1);
-        for (int level = coarsestLevel_; level < end; ++level) {
-            double& offM = offM_[static_cast<std::size_t>(level)];
-            offM = std::max(offM, distances_.above(level));
+private:
+    // The chunk of a level that is being walked.
+    struct Above {
+        double offM = 0;         // from the finest samples of its units
+        bool isUnknown = false;  // a unit is narrower than its cells
+    };
+
+    // Joins four units of one leaf level, if the result is not too large for a unit.
+    std::optional<Unit> joined(const ChunkId& parent, Below& below) const {
+        for (const std::optional<Unit>& unit : below.units) {
+            if (!unit || unit->leafLevel != below.units[0]->leafLevel) return std::nullopt;
         }
+        Unit all{below.units[0]->leafLevel, {}, {}};
+        if (all.leafLevel - parent.level > levels_) return std::nullopt;
+        const int cells = chunkCells(shape_) << (all.leafLevel - parent.level - 1);
+        const auto side = static_cast<std::size_t>(cells) * 2 + 1;
+        all.finest.resize(side * side);
+        for (int q = 0; q < quadrantCount; ++q) {
+            const Unit& quarter = *below.units[static_cast<std::size_t>(q)];
+            placeQuarter(quarter.finest, cells, q, all.finest);
+            all.met.insert(all.met.end(), quarter.met.begin(), quarter.met.end());
+        }
+        return all;
     }
 
     // Searches for the chunk's distance. Unreadable blocks are already reported by the walk.
@@ -196,13 +225,8 @@ private:
 
     const ChunkFile& file_;
     PlanetShape shape_;
-    int tileLevel_;
-    int coarsestLevel_;
-    std::vector<std::int16_t> finest_;          // of the current tile
-    std::vector<Met> inTile_;                   // chunks of the tile, except those of the two finest levels
-    std::vector<double> offM_;                  // by level above the tile, of the current chunk
-    std::uint64_t missed_ = 0;                  // chunks with unreadable children
-    std::vector<std::uint64_t> missedAtEntry_;  // by level
+    int levels_;                // of the largest unit, without its root
+    std::vector<Above> above_;  // by level
     GeometricErrorScratch scratch_;
     TileDistances distances_;
 };
@@ -214,7 +238,7 @@ public:
           source_(source),
           progress_(progress),
           shape_(file.info().shape),
-          total_(chunkCountOf(shape_)),
+          total_(file.info().chunks),
           tight_(file) {}
 
     Result<VerifyReport> run() {
@@ -224,12 +248,11 @@ public:
                 problem(root.error().message);
                 continue;
             }
-            TRY(visit(*root));
+            children_[static_cast<std::size_t>(face)] = root->children;
+            TRY_ASSIGN(const auto unit, visit(*root));
+            if (unit) tight_.finish(root->id, *unit, reportProblem());
         }
-        if (report_.problemCount == 0 && !openEdges_.empty()) {
-            problem(fmt::format("{}: {} edges have no chunk on their other side", file_.name(),
-                                openEdges_.size()));
-        }
+        if (report_.problemCount == 0) checkTree();
         return report_;
     }
 
@@ -244,32 +267,73 @@ private:
         problem(fmt::format("{}: chunk {}: {}", file_.name(), toString(id), what));
     }
 
-    Result<void> visit(const ChunkData& chunk) {
+    ReportProblem reportProblem() {
+        return [this](const ChunkId& id, const std::string& what) { chunkProblem(id, what); };
+    }
+
+    // Visits a chunk and everything under it. Returns it as a unit if it is one.
+    Result<std::optional<TightVerifier::Unit>> visit(const ChunkData& chunk) {
         ++report_.chunks;
         if (report_.chunks % 512 == 0 && progress_ && !progress_(report_.chunks, total_)) return cancelled();
         checkBounds(chunk);
         checkEdges(chunk);
-        const auto report = [this](const ChunkId& id, const std::string& what) { chunkProblem(id, what); };
-        tight_.enter(chunk);
-        if (chunk.id.level == leafLevel(shape_)) {
-            tight_.leave(chunk, {}, report);
-            return source_ != nullptr ? compareWithSource(chunk) : Result<void>{};
+        if (!chunk.children.exists()) {
+            ++leaves_;
+            coarsestLeafLevel_ = std::min<int>(coarsestLeafLevel_, chunk.id.level);
+            if (source_ != nullptr) {
+                TRY(compareWithSource(chunk));
+            }
+            return TightVerifier::unitOf(chunk);
         }
+        TightVerifier::Below below;
+        const std::uint64_t missedBefore = missed_;
         const auto children = file_.readChildren(chunk.id, chunk.children, chunk.heights);
-        if (!children) {
+        if (children) {
+            below.deltaGM = checkError(chunk, *children);
+        } else {
             problem(children.error().message);
-            tight_.missed();
-            tight_.leave(chunk, {}, report);
-            return {};
+            ++missed_;
         }
-        const double deltaGM = checkError(chunk, *children);
-        float largestTightM = 0;
-        for (const ChunkData& child : *children) {
-            TRY(visit(child));
-            largestTightM = std::max(largestTightM, child.deltaTightM);
+        for (std::size_t q = 0; children && q < children->size(); ++q) {
+            const ChunkData& child = (*children)[q];
+            TRY_ASSIGN(below.units[q], visit(child));
+            below.largestTightM = std::max(below.largestTightM, child.deltaTightM);
+            below.hasLeaves = below.hasLeaves || !child.children.exists();
         }
-        tight_.leave(chunk, {deltaGM, largestTightM}, report);
-        return {};
+        below.isWhole = missed_ == missedBefore;
+        return tight_.leave(chunk, std::move(below), reportProblem());
+    }
+
+    // Checks what the header says of the tree, and that an edge without a chunk of its level on the other
+    // side belongs to a leaf there.
+    void checkTree() {
+        const ChunkFileInfo& info = file_.info();
+        if (report_.chunks != info.chunks || leaves_ != leafCountOf(info.chunks)) {
+            problem(fmt::format("{}: has {} chunks; the header says {}", file_.name(), report_.chunks,
+                                info.chunks));
+        }
+        if (coarsestLeafLevel_ != info.coarsestLeafLevel) {
+            problem(fmt::format("{}: its coarsest leaf has level {}; the header says {}", file_.name(),
+                                coarsestLeafLevel_, info.coarsestLeafLevel));
+        }
+        std::uint64_t alone = 0;
+        for (const auto& [key, seen] : openEdges_)
+            alone += !liesUnderLeaf(neighbourOf(seen.chunk, seen.edge));
+        if (alone > 0)
+            problem(fmt::format("{}: {} edges have no chunk on their other side", file_.name(), alone));
+    }
+
+    // Returns whether a chunk of a coarser level is a leaf at the place of this one. Everything has been read
+    // before without a problem.
+    bool liesUnderLeaf(const ChunkId& id) const {
+        BlockLocation children = children_[static_cast<std::size_t>(id.face)];
+        for (int level = 0; level < id.level; ++level) {
+            if (!children.exists()) return true;
+            const auto entries = file_.readEntries(ancestorOf(id, level), children);
+            if (!entries) return false;
+            children = (*entries)[static_cast<std::size_t>(quadrantOf(ancestorOf(id, level + 1)))].children;
+        }
+        return false;
     }
 
     void checkBounds(const ChunkData& chunk) {
@@ -301,15 +365,16 @@ private:
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const FaceSquare square = faceSquareOf(chunk.id);
         struct Side {
+            Edge edge;
             double u0, v0, u1, v1;
             std::size_t first, stride;
         };
         const double east = square.u + square.side;
         const double north = square.v + square.side;
-        const std::array<Side, 4> sides = {{{square.u, square.v, east, square.v, 0, 1},
-                                            {square.u, north, east, north, side * (side - 1), 1},
-                                            {square.u, square.v, square.u, north, 0, side},
-                                            {east, square.v, east, north, side - 1, side}}};
+        const std::array<Side, 4> sides = {{{Edge::South, square.u, square.v, east, square.v, 0, 1},
+                                            {Edge::North, square.u, north, east, north, side * (side - 1), 1},
+                                            {Edge::West, square.u, square.v, square.u, north, 0, side},
+                                            {Edge::East, east, square.v, east, north, side - 1, side}}};
         std::vector<std::int16_t> samples(side);
         for (const Side& edge : sides) {
             const glm::dvec3 from = cubePoint(chunk.id.face, edge.u0, edge.v0);
@@ -319,16 +384,17 @@ private:
                 std::reverse(samples.begin(), samples.end());
             const EdgeKey key{chunk.id.level,
                               glm::i64vec3((from + to) * std::ldexp(1.0, chunk.id.level + 1))};
-            matchEdge(chunk.id, key, XXH3_64bits(samples.data(), samples.size() * sizeof samples[0]));
+            matchEdge({chunk.id, edge.edge, XXH3_64bits(samples.data(), samples.size() * sizeof samples[0])},
+                      key);
         }
     }
 
-    void matchEdge(const ChunkId& id, const EdgeKey& key, std::uint64_t hash) {
-        const auto [seen, isFirst] = openEdges_.try_emplace(key, SeenEdge{id, hash});
+    void matchEdge(const SeenEdge& edge, const EdgeKey& key) {
+        const auto [seen, isFirst] = openEdges_.try_emplace(key, edge);
         if (isFirst) return;
         ++report_.edges;
-        if (seen->second.hash != hash) {
-            chunkProblem(id,
+        if (seen->second.hash != edge.hash) {
+            chunkProblem(edge.chunk,
                          fmt::format("its edge differs from that of chunk {}", toString(seen->second.chunk)));
         }
         openEdges_.erase(seen);
@@ -359,7 +425,7 @@ private:
     }
 
     Result<void> compareWithSource(const ChunkData& chunk) {
-        const SampleTile tile = tileOf(shape_, chunk.id);
+        const SampleTile tile = tileOf(shape_, chunk.id, chunk.id.level);
         std::vector<float> heights(chunk.heights.size());
         std::vector<std::int16_t> steps(chunk.heights.size());
         TRY(source_->sample(tile, heights));
@@ -382,6 +448,10 @@ private:
     PlanetShape shape_;
     std::uint64_t total_;
     VerifyReport report_;
+    std::array<BlockLocation, faceCount> children_;  // of the roots
+    std::uint64_t leaves_ = 0;
+    std::uint64_t missed_ = 0;  // chunks with unreadable children
+    int coarsestLeafLevel_ = maxLevel;
     TightVerifier tight_;
     GeometricErrorScratch scratch_;
     std::unordered_map<EdgeKey, SeenEdge, EdgeHash> openEdges_;  // edges that have been seen from one side
@@ -397,13 +467,13 @@ Result<FileReport> reportFile(const ChunkFile& file) {
         TRY_ASSIGN(const auto root, file.readRoot(face));
         ++tallies[0].chunks;
         tallies[0].bytes += file.info().roots[static_cast<std::size_t>(face)].size;
-        tallies[0].add(root.deltaCM, root.deltaTightM);
-        if (leafLevel(shape) == 0) continue;
+        tallies[0].add(root.children, root.deltaCM, root.deltaTightM);
+        if (!root.children.exists()) continue;
         TRY(tallyChildren(file, root.id, root.children, tallies, bytesLeft));
     }
     FileReport report;
     report.fileBytes = file.sizeBytes();
-    report.finestSamples = sampleCountOf(shape);
+    report.finestSamples = sampleCountOf(file.info());
     std::uint64_t heightBytes = chunkFileHeaderBytes;
     for (int level = 0; level <= leafLevel(shape); ++level) {
         report.levels.push_back(summarise(level, tallies[static_cast<std::size_t>(level)]));
@@ -435,7 +505,7 @@ Result<ProbeReport> probeFile(const ChunkFile& file, const Geographic& place) {
         const double highest = heightM(shape, chunk.maxStep);
         report.chain.push_back({chunk.id, chunk.deltaCM, chunk.deltaTightM, lowest, highest, report.heightM,
                                 chunkBounds(chunk.id, shape.radiusM, lowest, highest)});
-        if (chunk.id.level == leafLevel(shape)) return report;
+        if (!chunk.children.exists()) return report;
         TRY_ASSIGN(auto children, file.readChildren(chunk.id, chunk.children, chunk.heights));
         const ChunkId next = chunkAt(report.place, chunk.id.level + 1);
         chunk = std::move(children[static_cast<std::size_t>(quadrantOf(next))]);

@@ -17,8 +17,9 @@ namespace planet {
 struct LevelReport {
     int level = 0;
     std::uint64_t chunks = 0;
-    std::uint64_t bytes = 0;  // of the blocks that hold this level's chunks
-    float minDeltaM = 0;      // of the δc of the level's chunks
+    std::uint64_t leaves = 0;  // of these chunks
+    std::uint64_t bytes = 0;   // of the blocks that hold this level's chunks
+    float minDeltaM = 0;       // of the δc of the level's chunks that are not leaves
     float medianDeltaM = 0;
     float p99DeltaM = 0;
     float maxDeltaM = 0;
@@ -29,7 +30,7 @@ struct LevelReport {
 
 struct FileReport {
     std::uint64_t fileBytes = 0;
-    std::uint64_t finestSamples = 0;  // distinct samples
+    std::uint64_t finestSamples = 0;  // distinct samples of all leaves
     double bitsPerFinestSample = 0;   // over all levels of heights
     std::vector<LevelReport> levels;
 };
@@ -50,9 +51,10 @@ struct VerifyReport {
 using VerifyProgressCallback = std::function<bool(std::uint64_t chunksDone, std::uint64_t chunksTotal)>;
 
 // Verifies every checksum; that δc and the tight metric match the heights and never increase downwards; that
-// extremes contain all finest heights and bounds contain every vertex; and that two chunks of a level have
-// the same edge where they meet. With its source, opened with the same settings, it also compares the finest
-// heights. Damage is a problem in the report; the Error is for a source that is unreadable or belongs to
+// extremes contain all finest heights and bounds contain every vertex; that two chunks of a level have the
+// same edge where they meet, which makes the edges of leaves of different levels agree too; and that the
+// header counts the chunks. With its source, opened with the same settings, it also compares the heights of
+// all leaves. Damage is a problem in the report; the Error is for a source that is unreadable or belongs to
 // another planet.
 Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* source,
                                 const VerifyProgressCallback& progress = {});

@@ -89,11 +89,12 @@ public:
             largestM_ = std::max(largestM_, atVerticesM);
             mostUnder[q] = {atVerticesM + child.deltaTightM, q};
         }
-        if (chunk.id.level + 1 == leafLevel(shape_)) return {};
-        // The largest bounds come first, so that the others can be skipped.
+        // The largest bounds come first, so that the others can be skipped. Under a leaf there is nothing,
+        // and its vertices are compared already.
         std::sort(mostUnder.rbegin(), mostUnder.rend());
         for (const auto& [mostM, q] : mostUnder) {
             if (mostM <= largestM_) return {};
+            if (!children[q].children.exists()) continue;
             TRY(descend(children[q]));
         }
         return {};
@@ -166,8 +167,8 @@ int tileLevelOf(const PlanetShape& shape, std::optional<int> levels) {
     return std::max(0, leafLevel(shape) - levels.value_or(std::max(1, cellsLog2 - shape.chunkCellsLog2)));
 }
 
-int coarsestLevelOfTiles(const PlanetShape& shape, int tileLevel) {
-    return std::max(0, leafLevel(shape) - (shape.faceCellsLog2 - tileLevel));
+int coarsestLevelOfTiles(int tileLevel, const PlanetShape& shape) {
+    return std::max(0, tileLevel - shape.chunkCellsLog2);
 }
 
 void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int16_t> finest,
@@ -175,7 +176,7 @@ void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const 
     const auto cells = static_cast<std::size_t>(faceCells(shape) >> tile.level);
     assert(finest.size() == (cells + 1) * (cells + 1));
     out.tile = tile;
-    out.coarsestLevel = coarsestLevelOfTiles(shape, tile.level);
+    out.coarsestLevel = coarsestLevelOfTiles(tile.level, shape);
     out.largestM.clear();
     if (out.coarsestLevel > leafLevel(shape) - 2) return;
     facePositions(shape, faceSquareOf(tile), cells + 1, finest, scratch);
@@ -208,7 +209,7 @@ double TileDistances::above(int level) const {
 
 Result<double> searchFinestDistance(const PlanetShape& shape, const ChunkData& chunk,
                                     const ReadChildren& readChildren, const std::function<bool()>& goOn) {
-    assert(chunk.id.level < leafLevel(shape));
+    assert(chunk.children.exists());
     Search search(shape, chunk, readChildren, goOn);
     TRY(search.descend(chunk));
     return search.largestM();

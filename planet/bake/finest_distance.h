@@ -11,6 +11,9 @@
 // the distance of a child's vertices plus the child's tight metric bounds everything under the child, so most
 // of the pyramid is never read.
 //
+// A tile is a complete subtree, whose leaves all have one level. In a sparse planet tiles have different
+// leaves; the shape that is passed with a tile is that of a planet with the tile's leaves as its finest.
+//
 // Pure functions apart from readChildren; any thread, each with its own scratch.
 #pragma once
 
@@ -29,8 +32,8 @@ namespace planet {
 // level of chunks that are 128 finest cells wide, or twice as wide as a leaf if that is more.
 int tileLevelOf(const PlanetShape& shape, std::optional<int> levels);
 
-// Returns the coarsest level whose cells are no wider than a tile of tileLevel.
-int coarsestLevelOfTiles(const PlanetShape& shape, int tileLevel);
+// Returns the coarsest level whose cells are no wider than a chunk of tileLevel.
+int coarsestLevelOfTiles(int tileLevel, const PlanetShape& shape);
 
 // The distances of a tile's finest samples from the chunks above and within it.
 struct TileDistances {
@@ -54,10 +57,10 @@ struct TileDistances {
 void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int16_t> finest,
                  GeometricErrorScratch& scratch, TileDistances& out);
 
-// Reads the four children of a chunk above the finest level. Their tight metrics are known.
+// Reads the four children of a chunk that has children. Their tight metrics are known.
 using ReadChildren = std::function<Result<std::array<ChunkData, quadrantCount>>(const ChunkData& parent)>;
 
-// Returns the distance of a chunk above the finest level. Keeps one path of chunks in memory. Calls goOn
+// Returns the distance of a chunk that has children. Keeps one path of chunks in memory. Calls goOn
 // before each block is read; returning false cancels.
 Result<double> searchFinestDistance(const PlanetShape& shape, const ChunkData& chunk,
                                     const ReadChildren& readChildren, const std::function<bool()>& goOn = {});

@@ -108,7 +108,7 @@ Result<void> writeLevelImages(const std::filesystem::path& chunkFile, const std:
         return ioError(fmt::format("{}: cannot make this folder: {}", folder.string(), problem.message()));
     for (const Face face : allFaces) {
         TRY_ASSIGN(const auto root, file.readRoot(face));
-        for (int level = 0; level <= leafLevel(file.info().shape); ++level) {
+        for (int level = 0; level <= file.info().coarsestLeafLevel; ++level) {
             const auto path = folder / fmt::format("{}_level{:02}.png", faceName(face), level);
             const auto written = writeAtomically(path, [&](const std::filesystem::path& temporary) {
                 return LevelImage(file, root, level).write(path, temporary);

@@ -38,10 +38,10 @@ std::vector<std::int16_t> cutQuarter(std::span<const std::int16_t> fine, int cel
     return quarter;
 }
 
+// Returns whether the values of a chunk with children are in range.
 bool isSane(const ChunkEntry& entry) {
     return std::isfinite(entry.deltaCM) && entry.deltaCM >= 0 && entry.deltaTightM >= 0 &&
-           entry.deltaTightM <= entry.deltaCM && entry.minStep <= entry.maxStep && entry.children.exists() &&
-           entry.children.size > 0;
+           entry.deltaTightM <= entry.deltaCM && entry.minStep <= entry.maxStep && entry.children.size > 0;
 }
 
 void describeLeaf(ChunkData& chunk) {
@@ -50,12 +50,19 @@ void describeLeaf(ChunkData& chunk) {
     chunk.maxStep = *highest;
 }
 
-void describe(ChunkData& chunk, const ChunkEntry& entry) {
+// Returns false if the entry is out of range.
+bool describe(ChunkData& chunk, const ChunkEntry& entry) {
+    if (!entry.children.exists()) {
+        describeLeaf(chunk);
+        return true;
+    }
+    if (!isSane(entry)) return false;
     chunk.deltaCM = entry.deltaCM;
     chunk.deltaTightM = entry.deltaTightM;
     chunk.minStep = entry.minStep;
     chunk.maxStep = entry.maxStep;
     chunk.children = entry.children;
+    return true;
 }
 
 std::uint64_t checksumOf(std::span<const std::byte> content, const BlockId& id, bool isRoot) {
@@ -138,38 +145,34 @@ Result<ChunkData> ChunkFile::readRoot(Face face) const {
     const BlockLocation location = info_.roots[static_cast<std::size_t>(face)];
     ChunkData root;
     root.id = {face, 0, 0, 0};
-    const bool leaf = leafLevel(info_.shape) == 0;
-    const std::size_t entryBytes = leaf ? 0 : chunkEntryBytes;
-    TRY_ASSIGN(const auto block, readContent(root.id, true, location,
-                                             {entryBytes + checksumBytes, largestBlockBytes(info_.shape)}));
+    TRY_ASSIGN(const auto block,
+               readContent(root.id, true, location, {1 + checksumBytes, largestBlockBytes(info_.shape)}));
     const std::span content(block);
+    const auto index = indexFrom(content, 1, leafLevel(info_.shape) > 0, location.offset);
+    if (!index) return invalid(root.id, index.error().message);
     root.heights.resize(static_cast<std::size_t>(chunkVertexCount(info_.shape)));
-    if (auto decoded = decodeGrid(content.subspan(entryBytes), chunkSize(info_.shape), root.heights);
+    if (auto decoded = decodeGrid(content.subspan(index->bytes), chunkSize(info_.shape), root.heights);
         !decoded) {
         return invalid(root.id, decoded.error().message);
     }
-    if (leaf) {
-        describeLeaf(root);
-        return root;
-    }
-    const ChunkEntry entry = entryFrom(content.first<chunkEntryBytes>(), location.offset);
-    if (!isSane(entry)) return invalid(root.id, "its errors, extremes or children are out of range");
-    describe(root, entry);
+    if (!describe(root, index->entries[0]))
+        return invalid(root.id, "its errors, extremes or children are out of range");
     return root;
 }
 
 Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
     const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const {
     assert(parent.level < leafLevel(info_.shape));
-    const bool leaves = parent.level + 1 == leafLevel(info_.shape);
-    const std::size_t entriesBytes = leaves ? 0 : quadrantCount * chunkEntryBytes;
-    TRY_ASSIGN(const auto block, readContent(parent, false, location,
-                                             {entriesBytes + checksumBytes, largestBlockBytes(info_.shape)}));
+    TRY_ASSIGN(const auto block,
+               readContent(parent, false, location, {1 + checksumBytes, largestBlockBytes(info_.shape)}));
     const std::span content(block);
+    const bool aboveDeepest = parent.level + 1 < leafLevel(info_.shape);
+    const auto index = indexFrom(content, quadrantCount, aboveDeepest, location.offset);
+    if (!index) return invalid(parent, index.error().message);
     const int cells = chunkCells(info_.shape);
     const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
     std::vector<std::int16_t> fine(fineSide * fineSide);
-    if (auto decoded = decodeRefinement(content.subspan(entriesBytes), parentHeights, cells, fine);
+    if (auto decoded = decodeRefinement(content.subspan(index->bytes), parentHeights, cells, fine);
         !decoded) {
         return invalid(parent, decoded.error().message);
     }
@@ -179,34 +182,28 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
         ChunkData& child = children[q];
         child.id = childOf(parent, quadrant);
         child.heights = cutQuarter(fine, cells, quadrant);
-        if (leaves) {
-            describeLeaf(child);
-            continue;
-        }
-        const ChunkEntry entry =
-            entryFrom(content.subspan(q * chunkEntryBytes).first<chunkEntryBytes>(), location.offset);
-        if (!isSane(entry)) return invalid(child.id, "its errors, extremes or children are out of range");
-        describe(child, entry);
+        if (!describe(child, index->entries[q]))
+            return invalid(child.id, "its errors, extremes or children are out of range");
     }
     return children;
 }
 
 Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const ChunkId& parent,
                                                                      BlockLocation location) const {
-    assert(parent.level + 1 < leafLevel(info_.shape));
-    constexpr std::size_t entriesBytes = quadrantCount * chunkEntryBytes;
-    if (location.size < entriesBytes + checksumBytes) return invalid(parent, "it is too small for its index");
-    TRY_ASSIGN(const auto bytes,
-               readBlock(parent, {location.offset, entriesBytes}, {entriesBytes, entriesBytes}));
-    std::array<ChunkEntry, quadrantCount> entries;
-    for (std::size_t q = 0; q < entries.size(); ++q) {
-        entries[q] = entryFrom(std::span(bytes).subspan(q * chunkEntryBytes).first<chunkEntryBytes>(),
-                               location.offset);
-        if (!isSane(entries[q])) {
+    assert(parent.level < leafLevel(info_.shape));
+    if (location.size < 1 + checksumBytes) return invalid(parent, "it is too small for its index");
+    const auto size =
+        static_cast<std::uint32_t>(std::min<std::size_t>(largestIndexBytes, location.size - checksumBytes));
+    TRY_ASSIGN(const auto bytes, readBlock(parent, {location.offset, size}, {1, largestIndexBytes}));
+    const bool aboveDeepest = parent.level + 1 < leafLevel(info_.shape);
+    const auto index = indexFrom(bytes, quadrantCount, aboveDeepest, location.offset);
+    if (!index) return invalid(parent, index.error().message);
+    for (std::size_t q = 0; q < index->entries.size(); ++q) {
+        const ChunkEntry& entry = index->entries[q];
+        if (entry.children.exists() && !isSane(entry))
             return invalid(childOf(parent, static_cast<int>(q)), "its index entry is out of range");
-        }
     }
-    return entries;
+    return index->entries;
 }
 
 Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, BlockLocation location,

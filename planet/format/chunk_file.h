@@ -5,10 +5,10 @@
 //   colours    if any: the blocks of the colour quadtree (colour_tile.h), the finest level first
 //
 // A sibling block holds the four children of a chunk as a refinement of its grid (height_codec.h); a root
-// block holds a face's complete root chunk. Each block also stores the errors and extremes of its chunks and
-// the locations of their children, so the index is paged with the data. Each block ends in a checksum seeded
-// with the chunk's key, so reading a block for the wrong chunk also fails. README.md has the layout byte by
-// byte.
+// block holds a face's complete root chunk. Each block also says which of its chunks have children, and
+// stores their errors, extremes and the locations of their children, so the index is paged with the data. A
+// chunk of any level may be a leaf. Each block ends in a checksum seeded with the chunk's key, so reading a
+// block for the wrong chunk also fails. README.md has the layout byte by byte.
 //
 // A colour block holds the four children of a tile, or a root tile.
 //
@@ -52,12 +52,13 @@ public:
 
     Result<ChunkData> readRoot(Face face) const;
 
-    // Reads the four children of a chunk, in quadrant order. location: of their block.
+    // Reads the four children of a chunk above the deepest level, in quadrant order. location: of their
+    // block.
     Result<std::array<ChunkData, quadrantCount>> readChildren(
         const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const;
 
-    // Reads only the entries of a chunk's four children, without the heights and the checksum. The children
-    // must not be leaves, which have no entries.
+    // Reads only the entries of a chunk's four children, without the heights and the checksum. The entry of a
+    // leaf has no children; its extremes are unknown without its heights.
     Result<std::array<ChunkEntry, quadrantCount>> readEntries(const ChunkId& parent,
                                                               BlockLocation location) const;
 

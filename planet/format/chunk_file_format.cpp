@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -138,28 +139,65 @@ std::string shapeProblem(const PlanetShape& shape) {
     return {};
 }
 
-}  // namespace
-
-void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset) {
-    ByteWriter out(block);
-    out.put(entry.deltaCM);
-    out.put(entry.deltaTightM);
-    out.put(entry.minStep);
-    out.put(entry.maxStep);
-    out.put(entry.children.size);
-    out.put(distanceTo(entry.children, blockOffset));
+// Returns an empty text if a tree of the shape can have that many chunks and that coarsest leaf.
+std::string treeProblem(const ChunkFileInfo& info) {
+    if (info.coarsestLeafLevel > leafLevel(info.shape)) {
+        return fmt::format("coarsest leaf level {}; expected [0, {}]", info.coarsestLeafLevel,
+                           leafLevel(info.shape));
+    }
+    PlanetShape above = info.shape;  // of the levels that are complete
+    above.faceCellsLog2 = info.shape.chunkCellsLog2 + info.coarsestLeafLevel;
+    const std::uint64_t least = chunkCountOf(above);
+    const std::uint64_t most = chunkCountOf(info.shape);
+    if (info.chunks < least || info.chunks > most || (info.chunks - faceCount) % quadrantCount != 0)
+        return fmt::format("{} chunks; expected 6 and a multiple of 4, in [{}, {}]", info.chunks, least,
+                           most);
+    return {};
 }
 
-ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset) {
-    ByteReader in(bytes);
-    ChunkEntry entry;
-    entry.deltaCM = in.get<float>();
-    entry.deltaTightM = in.get<float>();
-    entry.minStep = in.get<std::int16_t>();
-    entry.maxStep = in.get<std::int16_t>();
-    entry.children.size = in.get<std::uint32_t>();
-    entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
-    return entry;
+}  // namespace
+
+void putIndex(std::vector<std::byte>& block, std::span<const ChunkEntry> entries, std::uint64_t blockOffset) {
+    assert(entries.size() <= quadrantCount);
+    unsigned withChildren = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        withChildren |= static_cast<unsigned>(entries[i].children.exists()) << i;
+    ByteWriter out(block);
+    out.put(static_cast<std::uint8_t>(withChildren));
+    for (const ChunkEntry& entry : entries) {
+        if (!entry.children.exists()) continue;
+        out.put(entry.deltaCM);
+        out.put(entry.deltaTightM);
+        out.put(entry.minStep);
+        out.put(entry.maxStep);
+        out.put(entry.children.size);
+        out.put(distanceTo(entry.children, blockOffset));
+    }
+}
+
+Result<BlockIndex> indexFrom(std::span<const std::byte> block, int chunks, bool mayHaveChildren,
+                             std::uint64_t blockOffset) {
+    if (block.empty()) return badInput("it is too small for its index");
+    ByteReader in(block);
+    const unsigned withChildren = in.get<std::uint8_t>();
+    if (withChildren >> chunks != 0) return badInput("its index names chunks that it does not hold");
+    if (withChildren != 0 && !mayHaveChildren)
+        return badInput("its index names children below the deepest level");
+    BlockIndex index;
+    index.bytes = 1 + static_cast<std::size_t>(std::popcount(withChildren)) * chunkEntryBytes;
+    if (block.size() < index.bytes) return badInput("it is too small for its index");
+    for (std::size_t q = 0; q < static_cast<std::size_t>(chunks); ++q) {
+        if ((withChildren >> q & 1) == 0) continue;
+        ChunkEntry& entry = index.entries[q];
+        entry.deltaCM = in.get<float>();
+        entry.deltaTightM = in.get<float>();
+        entry.minStep = in.get<std::int16_t>();
+        entry.maxStep = in.get<std::int16_t>();
+        entry.children.size = in.get<std::uint32_t>();
+        entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
+        if (!entry.children.exists()) return badInput("its index entry is out of range");
+    }
+    return index;
 }
 
 void putColourEntry(std::vector<std::byte>& block, const ColourEntry& entry, std::uint64_t blockOffset) {
@@ -212,8 +250,10 @@ std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& inf
     out.put(static_cast<std::uint8_t>(info.shape.chunkCellsLog2));
     out.put(info.minStep);
     out.put(info.maxStep);
-    out.put(std::uint16_t{0});
+    out.put(static_cast<std::uint8_t>(info.coarsestLeafLevel));
+    out.put(std::uint8_t{0});
     out.put(info.missingSamples);
+    out.put(info.chunks);
     for (const BlockLocation& root : info.roots) {
         out.put(root.offset);
         out.put(root.size);
@@ -273,8 +313,12 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     }
     info.minStep = in.get<std::int16_t>();
     info.maxStep = in.get<std::int16_t>();
-    in.take(2);
+    info.coarsestLeafLevel = in.get<std::uint8_t>();
+    in.take(1);
     info.missingSamples = in.get<std::uint64_t>();
+    info.chunks = in.get<std::uint64_t>();
+    if (const std::string problem = treeProblem(info); !problem.empty())
+        return badInput(fmt::format("{}: invalid header: {}; bake it again", name, problem));
     for (BlockLocation& root : info.roots) {
         root.offset = in.get<std::uint64_t>();
         root.size = in.get<std::uint32_t>();

@@ -19,10 +19,23 @@ inline constexpr std::size_t chunkEntryBytes = 24;
 inline constexpr std::size_t checksumBytes = 8;
 inline constexpr std::size_t colourEntryBytes = 16;
 
-// Entries name earlier blocks by distance, so a run of blocks can be made before its location in the file is
-// known.
-void putEntry(std::vector<std::byte>& block, const ChunkEntry& entry, std::uint64_t blockOffset);
-ChunkEntry entryFrom(std::span<const std::byte, chunkEntryBytes> bytes, std::uint64_t blockOffset);
+// The index at the beginning of a block of heights: a byte whose bit q says that chunk q of the block has
+// children, then an entry for each chunk that has.
+struct BlockIndex {
+    std::array<ChunkEntry, quadrantCount> entries;  // without children: a leaf
+    std::size_t bytes = 1;
+};
+inline constexpr std::size_t largestIndexBytes = 1 + quadrantCount * chunkEntryBytes;
+
+// Appends the index of a block's chunks: four, or one for a root block. Entries name earlier blocks by
+// distance, so a run of blocks can be made before its location in the file is known.
+void putIndex(std::vector<std::byte>& block, std::span<const ChunkEntry> entries, std::uint64_t blockOffset);
+
+// Decodes the index of a block of some chunks, [1, 4]. block: at least the index, or all of a shorter block.
+// mayHaveChildren: the chunks lie above the deepest level. The Error does not name the block. The values of
+// the entries are not checked.
+Result<BlockIndex> indexFrom(std::span<const std::byte> block, int chunks, bool mayHaveChildren,
+                             std::uint64_t blockOffset);
 
 void putColourEntry(std::vector<std::byte>& block, const ColourEntry& entry, std::uint64_t blockOffset);
 ColourEntry colourEntryFrom(std::span<const std::byte, colourEntryBytes> bytes, std::uint64_t blockOffset);

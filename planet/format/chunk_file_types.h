@@ -16,7 +16,7 @@
 namespace planet {
 
 inline constexpr std::size_t chunkFileHeaderBytes = 512;
-inline constexpr std::uint32_t chunkFileVersion = 3;
+inline constexpr std::uint32_t chunkFileVersion = 4;
 
 // The location of a block in the file. Offset 0 is the header, so it means "none".
 struct BlockLocation {
@@ -41,7 +41,7 @@ struct ChunkData {
 };
 
 // The index entry of a chunk with children. The file stores no entry for a leaf: its δc and tight metric are
-// 0, and its extremes are those of its heights.
+// 0, and its extremes are those of its heights. Without children, an entry stands for a leaf.
 struct ChunkEntry {
     float deltaCM = 0;      // metres, finite, >= 0
     float deltaTightM = 0;  // metres, [0, deltaCM]
@@ -56,6 +56,7 @@ struct TileData {
     BlockLocation children;  // none at the finest level, and none for derived tiles
     // In the GPU's format: colourTileBytes, or normalTileBytes.
     std::vector<std::byte> texels;
+    bool isRefined = true;  // of normals: the heights are finer somewhere under the tile
 };
 
 // The index entry of a colour tile.
@@ -74,12 +75,24 @@ struct ColourPyramid {
 
 struct ChunkFileInfo {
     PlanetShape shape;
-    std::int16_t minStep = 0;  // over the whole planet
+    std::uint64_t chunks = faceCount;  // of all levels
+    int coarsestLeafLevel = 0;         // [0, leafLevel(shape)]; equal to it if the tree is dense
+    std::int16_t minStep = 0;          // over the whole planet
     std::int16_t maxStep = 0;
     std::uint64_t missingSamples = 0;  // source samples without data that were filled
     std::array<BlockLocation, faceCount> roots;
     std::string source;  // description of the baked source, for users; at most 200 bytes of UTF-8
     std::optional<ColourPyramid> colour;
 };
+
+// Returns whether every leaf is at the deepest level.
+constexpr bool isDense(const ChunkFileInfo& info) {
+    return info.chunks == chunkCountOf(info.shape);
+}
+// Returns the samples of all leaves: each counts those on two of its edges, so that a dense tree counts every
+// sample once.
+constexpr std::uint64_t sampleCountOf(const ChunkFileInfo& info) {
+    return leafCountOf(info.chunks) * chunkCellCount(info.shape) + 2;
+}
 
 }  // namespace planet

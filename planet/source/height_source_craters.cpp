@@ -137,7 +137,7 @@ Result<void> samplePiece(const CraterField& field, const SampleTile& piece, floa
     double radius = 0;
     for (const glm::dvec3& direction : directions)
         radius = std::max(radius, glm::distance(direction, middle));
-    const double stepRad = gridStepRad(piece.faceCells);
+    const double stepRad = gridStepRad(filterCellsOf(piece));
     const std::vector<Crater> craters = cratersNear(field, middle, radius + 1e-9, stepRad);
     const auto columns = static_cast<std::size_t>(piece.columns);
     for (std::size_t i = 0; i < directions.size(); ++i) {

@@ -160,7 +160,7 @@ double heightOfNoise(const Detail& detail, double reliefM, double heightM) {
 
 Result<void> sampleTile(const Detail& detail, const SampleTile& tile, std::span<float> out) {
     TRY(detail.source.sample(tile, out));
-    const std::size_t held = heldBy(detail.octaves, gridStepRad(tile.faceCells));
+    const std::size_t held = heldBy(detail.octaves, gridStepRad(filterCellsOf(tile)));
     if (held == 0 || out.empty()) return {};
     TRY_ASSIGN(const auto relief, reliefOf(detail, tile));
     const double perStep = static_cast<double>(detail.cells) / tile.faceCells;

@@ -1,8 +1,8 @@
 // Samples an equirectangular image of the whole planet, north up, placed by ImagePlacement.
 //
 // The image continues without end: columns wrap, and a row beyond a pole is the row at the same distance on
-// this side, half a turn further. The kernel covers a grid cell's (pi/2) / faceCells radians, divided by
-// cos(latitude) in longitude; at a pole that is the whole row.
+// this side, half a turn further. The kernel covers a cell of the filter's grid, (pi/2) / filterCells
+// radians, divided by cos(latitude) in longitude; at a pole that is the whole row.
 
 #include <fmt/format.h>
 
@@ -44,15 +44,15 @@ struct Projection {
     double stretchAtEquator = 0;  // of the kernel in longitude, before it is clamped to [1, width / 4]
     float stretchRows = 1;        // of the kernel in latitude
 
-    Projection(const ImagePlacement& imagePlacement, int imageHeight, int faceCells)
+    Projection(const ImagePlacement& imagePlacement, int imageHeight, int filterCells)
         : placement(imagePlacement),
           width(imagePlacement.period),
           height(imageHeight),
           columnsPerRad(width / (2 * std::numbers::pi)),
           rowsPerRad(rowsToPole(imagePlacement, imageHeight) / std::numbers::pi),
-          stretchAtEquator(width / (4.0 * faceCells)),
+          stretchAtEquator(width / (4.0 * filterCells)),
           stretchRows(static_cast<float>(
-              std::max(1.0, rowsToPole(imagePlacement, imageHeight) / (2.0 * faceCells)))) {}
+              std::max(1.0, rowsToPole(imagePlacement, imageHeight) / (2.0 * filterCells)))) {}
 };
 
 // The taps of every sample of a piece: rows and columns of the endless image.
@@ -273,8 +273,9 @@ struct PiecePlace {
 };
 
 bool sameSquare(const SampleTile& a, const SampleTile& b) {
-    return a.face == b.face && a.faceCells == b.faceCells && a.firstColumn == b.firstColumn &&
-           a.firstRow == b.firstRow && a.columns == b.columns && a.rows == b.rows;
+    return a.face == b.face && a.faceCells == b.faceCells && filterCellsOf(a) == filterCellsOf(b) &&
+           a.firstColumn == b.firstColumn && a.firstRow == b.firstRow && a.columns == b.columns &&
+           a.rows == b.rows;
 }
 
 // Returns the place of a piece, valid until the next call. Each thread caches its last piece, because the
@@ -287,7 +288,7 @@ const PiecePlace& placeOf(const Equirectangular& source, const SampleTile& piece
                       last->projection.height == source.image.height();
     if (same) return *last;
     last.reset();
-    const Projection projection(source.placement, source.image.height(), piece.faceCells);
+    const Projection projection(source.placement, source.image.height(), filterCellsOf(piece));
     PieceTaps taps = tapsOfPiece(projection, piece);
     const Region region = regionOf(projection, taps);
     last.emplace(PiecePlace{projection, std::move(taps), region});

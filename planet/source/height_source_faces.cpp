@@ -126,9 +126,10 @@ struct AxisTaps {
 
 // Returns the taps of samples firstCell, firstCell + step, ... Cell k of the grid lies at source sample k
 // (size - 1) / faceCells, which is exact, because faceCells is a power of two.
-AxisTaps tapsAlong(int firstCell, int step, int count, int faceCells, int size) {
-    const double perCell = static_cast<double>(size - 1) / faceCells;
-    const double stretch = std::max(1.0, perCell);
+// The filter covers a cell of the grid of filterCells.
+AxisTaps tapsAlong(int firstCell, int step, int count, const SampleTile& tile, int size) {
+    const double perCell = static_cast<double>(size - 1) / tile.faceCells;
+    const double stretch = std::max(1.0, static_cast<double>(size - 1) / filterCellsOf(tile));
     AxisTaps taps;
     taps.tapsEach = tapCount(static_cast<float>(stretch));
     taps.weights.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(taps.tapsEach));
@@ -176,10 +177,9 @@ void filterDown(const FaceSet& set, const AxisTaps& taps, const std::vector<floa
 
 // Samples a piece into out, whose rows are `stride` samples apart.
 Result<void> samplePiece(const FaceSet& set, const SampleTile& piece, float* out, std::size_t stride) {
-    const AxisTaps across = tapsAlong(piece.firstColumn, 1, piece.columns, piece.faceCells, set.size);
+    const AxisTaps across = tapsAlong(piece.firstColumn, 1, piece.columns, piece, set.size);
     // Rows of the grid run upwards along v, those of the source downwards.
-    const AxisTaps down =
-        tapsAlong(piece.faceCells - piece.firstRow, -1, piece.rows, piece.faceCells, set.size);
+    const AxisTaps down = tapsAlong(piece.faceCells - piece.firstRow, -1, piece.rows, piece, set.size);
     const int left = across.begin();
     const int width = across.end() - left;
     const int top = down.begin();
@@ -221,7 +221,8 @@ Result<void> sampleFromNextFace(const FaceSet& set, const SampleTile& tile, cons
     const FaceGridPoint last =
         placeOnFace(next, {tile.face, line.firstColumn + line.columns - 1, line.firstRow + line.rows - 1},
                     tile.faceCells);
-    const SampleTile there = tileBetween(first, last, tile.faceCells);
+    SampleTile there = tileBetween(first, last, tile.faceCells);
+    there.filterCells = tile.filterCells;
     std::vector<float> heights(samplesIn(there));
     TRY(sampleTile(set, there, heights));
     const bool reversed = first.column > last.column || first.row > last.row;

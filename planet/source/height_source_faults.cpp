@@ -62,7 +62,7 @@ struct Faults {
     double minM = 0;
     double maxM = 0;
 
-    double widthRad(int faceCells) const { return std::max(smoothRad, gridStepRad(faceCells) / 2); }
+    double widthRad(int filterCells) const { return std::max(smoothRad, gridStepRad(filterCells) / 2); }
 };
 
 struct NearFaults {
@@ -107,7 +107,7 @@ Result<void> samplePiece(const Faults& faults, const SampleTile& piece, float* o
     // A grid step covers at most 2 / faceCells radians along each axis.
     const double radiusRad =
         std::min(std::numbers::pi, 2.0 * (std::max(lastColumn, 1) + std::max(lastRow, 1)) / piece.faceCells);
-    const double widthRad = faults.widthRad(piece.faceCells);
+    const double widthRad = faults.widthRad(filterCellsOf(piece));
     const NearFaults near = nearFaults(faults, middle, radiusRad, widthRad);
     for (int row = 0; row < piece.rows; ++row) {
         for (int column = 0; column < piece.columns; ++column) {

@@ -9,11 +9,12 @@
 
 #include "planet/base/result.h"
 #include "planet/raster/height_source_settings.h"
+#include "planet/sphere/chunk_id.h"
 #include "planet/sphere/cube_sphere.h"
 
 namespace planet {
 
-// A rectangle of a face's finest grid of (faceCells + 1)^2 samples. Column i lies at u = 2 i / faceCells - 1,
+// A rectangle of a face's grid of (faceCells + 1)^2 samples. Column i lies at u = 2 i / faceCells - 1,
 // row j at v = 2 j / faceCells - 1.
 struct SampleTile {
     Face face = Face::PosX;
@@ -22,7 +23,16 @@ struct SampleTile {
     int firstRow = 0;
     int columns = 0;  // samples
     int rows = 0;
+    // The cells along a face of the grid that the filter is made for, a power of two; 0: faceCells. A coarser
+    // part of a planet samples its own grid with the filter of the finest one, so that a height depends only
+    // on its place.
+    int filterCells = 0;
 };
+
+// Returns the cells along a face of the grid that the filter is made for.
+constexpr int filterCellsOf(const SampleTile& tile) {
+    return tile.filterCells > 0 ? tile.filterCells : tile.faceCells;
+}
 
 // Copies share the open files. Several threads may call sample at once.
 struct HeightSource {
@@ -42,10 +52,16 @@ struct HeightSource {
     int seamEdges = 0;
     std::string notice{};
 
+    // Returns the smallest power of two of cells along a face that loses no data under this square of its
+    // face, [1, 2^22]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several
+    // threads may call it at once.
+    std::function<int(const ChunkId& square)> finestCells{};
+
     // Fills out, row-major, with columns x rows heights in metres. A sample's value depends only on its point
-    // of the cube and on faceCells, never on the tile or face, so shared edges are bit-identical.
+    // of the cube and on filterCellsOf(tile), never on the tile, the face or faceCells, so shared edges are
+    // bit-identical, between grids of different spacings too.
     //
-    // The values are filtered: a source finer than the grid is averaged over the grid's spacing, a coarser
+    // The values are filtered: a source finer than the filter's grid is averaged over its spacing, a coarser
     // one is interpolated smoothly, and faces on a grid of their own size are copied exactly. If faces differ
     // by rounding along an edge of the cube, the first in enum order is used. A call needs about 16 MB
     // besides the cache. The Error names the file.

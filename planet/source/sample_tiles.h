@@ -26,12 +26,22 @@ inline std::size_t indexIn(const SampleTile& tile, int column, int row) {
            static_cast<std::size_t>(column - tile.firstColumn);
 }
 
-// Returns the tile of all samples of a chunk's square on the finest grid, including its edges.
+// Returns the tile of all samples of a chunk's square on the grid of a level's chunks, including its edges,
+// with the filter of the finest grid. level: at least the chunk's.
+inline SampleTile tileOf(const PlanetShape& shape, const ChunkId& chunk, int level) {
+    const int onFace = chunkCells(shape) << level;
+    const int cells = onFace >> chunk.level;
+    return {chunk.face,
+            onFace,
+            static_cast<int>(chunk.x) * cells,
+            static_cast<int>(chunk.y) * cells,
+            cells + 1,
+            cells + 1,
+            faceCells(shape)};
+}
+// Returns the same on the finest grid.
 inline SampleTile tileOf(const PlanetShape& shape, const ChunkId& chunk) {
-    const int cells = faceCells(shape) >> chunk.level;
-    return {
-        chunk.face, faceCells(shape), static_cast<int>(chunk.x) * cells, static_cast<int>(chunk.y) * cells,
-        cells + 1,  cells + 1};
+    return tileOf(shape, chunk, leafLevel(shape));
 }
 
 // Returns the tile with two points of a face as opposite corners.

@@ -92,7 +92,7 @@ HeightSource fieldSource(const TerrainSettings& settings, const TerrainExtent& e
     HeightSource source = describedTerrain(settings, extent);
     source.sample = [height = std::move(height), minM = extent.minM, maxM = extent.maxM](
                         const SampleTile& tile, std::span<float> out) -> Result<void> {
-        const double stepRad = gridStepRad(tile.faceCells);
+        const double stepRad = gridStepRad(filterCellsOf(tile));
         std::size_t at = 0;
         for (int row = tile.firstRow; row < tile.firstRow + tile.rows; ++row) {
             for (int column = tile.firstColumn; column < tile.firstColumn + tile.columns; ++column) {

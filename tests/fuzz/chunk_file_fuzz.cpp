@@ -51,6 +51,7 @@ bool growTree(const ChunkFile& file) {
     const ChunkFileInfo& info = file.info();
     Result<ChunkTree> tree = makeChunkTree(info.shape, info.minStep, info.maxStep, std::move(roots));
     if (!isRead(tree)) return false;
+    tree->allChunks = info.chunks;
     std::uint32_t slot = faceCount;
     std::size_t left = blocksToRead(file.info().shape);
     for (NodeIndex at = 0; at < tree->nodes.size() && left > 0; ++at) {
@@ -58,8 +59,7 @@ bool growTree(const ChunkFile& file) {
         checkNode(node);
         if (node.childrenState != ChildrenState::Absent) continue;
         --left;
-        if (node.id.level + 1 < leafLevel(info.shape))
-            static_cast<void>(isRead(file.readEntries(node.id, node.children)));
+        static_cast<void>(isRead(file.readEntries(node.id, node.children)));
         auto children = file.readChildren(node.id, node.children, *node.heights);
         if (!isRead(children) || !isRead(checkChildren(*tree, at, *children))) continue;
         addChildren(*tree, at, std::move(*children), {slot, slot + 1, slot + 2, slot + 3});
@@ -81,7 +81,7 @@ void readHeights(const ChunkFile& file) {
     const std::size_t most = blocksToRead(file.info().shape);
     for (std::size_t i = 0; i < open.size() && i < most; ++i) {
         const ChunkData chunk = open[i];
-        if (chunk.id.level == leafLevel(file.info().shape)) continue;
+        if (!chunk.children.exists()) continue;
         auto children = file.readChildren(chunk.id, chunk.children, chunk.heights);
         if (!isRead(children)) continue;
         for (ChunkData& child : *children) open.push_back(std::move(child));

@@ -20,6 +20,7 @@
 #include "planet/sphere/view.h"
 #include "tests/support/chunk_blocks.h"
 #include "tests/support/earth_windows.h"
+#include "tests/support/sparse_source.h"
 
 namespace {
 
@@ -90,11 +91,16 @@ void chunkFiles(const fs::path& folder) {
     baked("bc1.chk", 33, ColourFormat::Bc1);
     baked("lossless.chk", 17, ColourFormat::Lossless);
     baked("two_levels_of_colours.chk", 17, ColourFormat::Bc1, 513);
+    // Flat and of large chunks, so that it is small although a sparse planet has faces of at least 513
+    // samples.
+    const auto flat = test::formulaSource([](const glm::dvec3&) { return 0.0; }, 0, 1, 1, 1025);
+    must(bake(test::sparse(flat, {test::boxAround({-1, 1, 1}, 0.01, 1024)}), {.chunkSize = 129},
+              folder / "sparse.chk"));
     Bytes old = read(folder / "heights.chk");
     constexpr std::size_t versionAt = 8;
     test::putAt(std::span(old), versionAt, chunkFileVersion - 1);
     test::resealHeader(old);
-    write(folder / "version_2.chk", old);
+    write(folder / "older_version.chk", old);
 }
 
 // ---- blocks of chunk files ----

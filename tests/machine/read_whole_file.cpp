@@ -75,9 +75,9 @@ void readBelow(Reading& reading, const ChunkData& parent) {
     const int cells = chunkCells(reading.file.info().shape);
     std::vector<std::byte> coded;
     encodeRefinement(joined(children, cells), cells, defaultCompressionLevel, coded);
-    const bool leaves = !children[0].children.exists();
-    const std::uint64_t entries = leaves ? 0 : quadrantCount * chunkEntryBytes;
-    reading.rewrittenOtherwise += !areAt(reading, parent.children.offset + entries, coded);
+    std::uint64_t indexBytes = 1;
+    for (const ChunkData& child : children) indexBytes += child.children.exists() ? chunkEntryBytes : 0;
+    reading.rewrittenOtherwise += !areAt(reading, parent.children.offset + indexBytes, coded);
     for (const ChunkData& child : children) keep(reading, child);
     for (const ChunkData& child : children) readBelow(reading, child);
 }

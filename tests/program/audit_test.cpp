@@ -100,13 +100,12 @@ void belittleErrors(std::fstream& file, const planet::ChunkId& parent, planet::B
     const std::string old = bytesAt(file, location);
     const std::span oldBytes(reinterpret_cast<const std::byte*>(old.data()), old.size());
     std::vector<std::byte> block;
-    for (std::size_t q = 0; q < planet::quadrantCount; ++q) {
-        planet::ChunkEntry entry = planet::entryFrom(
-            oldBytes.subspan(q * planet::chunkEntryBytes).first<planet::chunkEntryBytes>(), location.offset);
+    auto index = planet::indexFrom(oldBytes, planet::quadrantCount, true, location.offset).value();
+    for (planet::ChunkEntry& entry : index.entries) {
         entry.deltaCM /= 100;
         entry.deltaTightM /= 100;
-        planet::putEntry(block, entry, location.offset);
     }
+    planet::putIndex(block, index.entries, location.offset);
     const auto rest = oldBytes.subspan(block.size(), old.size() - block.size() - planet::checksumBytes);
     block.insert(block.end(), rest.begin(), rest.end());
     const std::uint64_t sum = planet::siblingChecksum(block, parent);

@@ -18,7 +18,7 @@ struct FileBlock {
     BlockId id;  // as messages name it: of a root block its own chunk, of the others the parent
     bool isRoot = false;
     BlockLocation at;
-    std::size_t entriesBytes = 0;  // at its beginning
+    std::size_t entriesBytes = 0;  // at its beginning, with the byte that says which chunks have one
 };
 
 template <class T>
@@ -34,40 +34,43 @@ template <class Visit>
 void forEachBlock(std::span<const std::byte> file, const ChunkFileInfo& info, std::size_t most,
                   const Visit& visit) {
     std::vector<FileBlock> open;
-    const auto add = [&](const BlockId& id, bool isRoot, const BlockLocation& at, int levelsBelow) {
-        const std::size_t entryBytes =
-            id.kind == BlockKind::Colours ? colourEntryBytes : (levelsBelow > 0 ? chunkEntryBytes : 0);
-        const std::size_t entriesBytes = (isRoot ? 1 : quadrantCount) * entryBytes;
-        const bool fits = at.offset >= chunkFileHeaderBytes && at.offset <= file.size() &&
-                          at.size <= file.size() - at.offset && at.size >= entriesBytes + checksumBytes;
-        if (fits) open.push_back({id, isRoot, at, entriesBytes});
-    };
     const int leaf = leafLevel(info.shape);
+    // The index of a block of heights; empty if it is not valid.
+    const auto indexOf = [&](const BlockId& id, bool isRoot, const BlockLocation& at) {
+        const auto bytes = file.subspan(static_cast<std::size_t>(at.offset), at.size - checksumBytes);
+        const int level = id.parent.level + (isRoot ? 0 : 1);
+        return indexFrom(bytes, isRoot ? 1 : quadrantCount, level < leaf, at.offset).value_or(BlockIndex{});
+    };
+    const auto add = [&](const BlockId& id, bool isRoot, const BlockLocation& at) {
+        const bool colours = id.kind == BlockKind::Colours;
+        const std::size_t least = colours ? (isRoot ? 1 : quadrantCount) * colourEntryBytes : 1;
+        const bool fits = at.offset >= chunkFileHeaderBytes && at.offset <= file.size() &&
+                          at.size <= file.size() - at.offset && at.size >= least + checksumBytes;
+        if (fits) open.push_back({id, isRoot, at, colours ? least : indexOf(id, isRoot, at).bytes});
+    };
     for (const Face face : allFaces) {
         const ChunkId root{face, 0, 0, 0};
         const auto f = static_cast<std::size_t>(face);
-        add(root, true, info.roots[f], leaf);
-        if (info.colour) add({root, BlockKind::Colours}, true, info.colour->roots[f], info.colour->leafLevel);
+        add(root, true, info.roots[f]);
+        if (info.colour) add({root, BlockKind::Colours}, true, info.colour->roots[f]);
     }
     for (std::size_t done = 0; done < open.size() && done < most; ++done) {
         const FileBlock block = open[done];
         visit(block);
         const bool colours = block.id.kind == BlockKind::Colours;
-        const int deepest = colours ? info.colour->leafLevel : leaf;
+        const BlockIndex index = colours ? BlockIndex{} : indexOf(block.id, block.isRoot, block.at);
         const auto bytes = file.subspan(static_cast<std::size_t>(block.at.offset), block.at.size);
         for (int q = 0; q < (block.isRoot ? 1 : quadrantCount); ++q) {
             const ChunkId chunk = block.isRoot ? block.id.parent : childOf(block.id.parent, q);
-            if (chunk.level >= deepest) continue;
+            if (colours && chunk.level >= info.colour->leafLevel) continue;
             const auto i = static_cast<std::size_t>(q);
             const BlockLocation children =
                 colours
                     ? colourEntryFrom(bytes.subspan(i * colourEntryBytes).template first<colourEntryBytes>(),
                                       block.at.offset)
                           .children
-                    : entryFrom(bytes.subspan(i * chunkEntryBytes).template first<chunkEntryBytes>(),
-                                block.at.offset)
-                          .children;
-            add({chunk, block.id.kind}, false, children, deepest - chunk.level - 1);
+                    : index.entries[i].children;
+            if (colours || children.exists()) add({chunk, block.id.kind}, false, children);
         }
     }
 }

@@ -293,7 +293,7 @@ std::vector<std::byte> withRootTightM(const std::filesystem::path& path, float t
     std::memcpy(bytes.data(), text.data(), text.size());
     const BlockLocation root = ChunkFile::open(path)->info().roots[0];
     const std::span block(bytes.data() + root.offset, root.size);
-    std::memcpy(block.data() + 4, &tightM, sizeof tightM);
+    std::memcpy(block.data() + 5, &tightM, sizeof tightM);
     std::vector<std::byte> sum;
     ByteWriter(sum).put(rootChecksum(block.first(block.size() - checksumBytes), Face::PosX));
     std::copy(sum.begin(), sum.end(), block.end() - checksumBytes);

@@ -83,16 +83,16 @@ TEST_F(ChunkFileTest, wrongMagicIsRefused) {
 
 TEST_F(ChunkFileTest, newerVersionSaysToUpdateTheProgramOrBakeAgain) {
     Bytes bytes = whole();
-    bytes[8] = std::byte{4};
-    EXPECT_NE(messageOf(bytes).find("version: 4 is not supported; expected 3: update"), std::string::npos);
+    bytes[8] = std::byte{5};
+    EXPECT_NE(messageOf(bytes).find("version: 5 is not supported; expected 4: update"), std::string::npos);
     EXPECT_NE(messageOf(bytes).find("bake the source again"), std::string::npos);
 }
 
 TEST_F(ChunkFileTest, olderVersionsSayToBakeAgain) {
     Bytes bytes = whole();
-    for (const std::uint8_t version : {std::uint8_t{1}, std::uint8_t{2}}) {
+    for (const std::uint8_t version : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
         bytes[8] = std::byte{version};
-        EXPECT_NE(messageOf(bytes).find("is not supported; expected 3: bake the source again"),
+        EXPECT_NE(messageOf(bytes).find("is not supported; expected 4: bake the source again"),
                   std::string::npos)
             << version;
     }
@@ -185,7 +185,7 @@ TEST_F(ChunkFileTest, childPointingForwardOrAtItselfIsRefused) {
     for (const std::uint64_t distance : {std::uint64_t{0}, location.offset + 1, ~std::uint64_t{0}}) {
         Bytes bytes = whole();
         const auto at = static_cast<std::size_t>(location.offset);
-        for (std::size_t i = 0; i < 8; ++i) bytes[at + 16 + i] = static_cast<std::byte>(distance >> (8 * i));
+        for (std::size_t i = 0; i < 8; ++i) bytes[at + 17 + i] = static_cast<std::byte>(distance >> (8 * i));
         const std::span block(bytes.data() + at, location.size);
         std::vector<std::byte> sum;
         ByteWriter(sum).put(rootChecksum(block.first(block.size() - checksumBytes), Face::PosX));

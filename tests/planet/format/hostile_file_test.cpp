@@ -49,7 +49,7 @@ struct HostileFile {
         const std::vector<std::int16_t> flat(static_cast<std::size_t>(chunkVertexCount(info.shape)), step);
         for (BlockLocation& root : info.roots) {
             Bytes content;
-            putEntry(content, entry, bytes.size());
+            putIndex(content, {&entry, 1}, bytes.size());
             encodeGrid(flat, chunkSize(info.shape), content);
             root = add(content);
         }
@@ -73,14 +73,14 @@ struct HostileFile {
 };
 
 // Two blocks, each of which says that all of its children's lie in the other; returns the first.
-template <class PutEntry>
-BlockLocation addCircle(HostileFile& file, std::size_t entryBytes, const PutEntry& put) {
-    const auto blockBytes = static_cast<std::uint32_t>(quadrantCount * entryBytes + checksumBytes);
+template <class PutIndex>
+BlockLocation addCircle(HostileFile& file, std::size_t indexBytes, const PutIndex& put) {
+    const auto blockBytes = static_cast<std::uint32_t>(indexBytes + checksumBytes);
     const BlockLocation first{chunkFileHeaderBytes, blockBytes};
     const BlockLocation second{first.offset + first.size, first.size};
     for (const auto& [own, other] : {std::pair(first, second), std::pair(second, first)}) {
         Bytes content;
-        for (int q = 0; q < quadrantCount; ++q) put(content, other, own.offset);
+        put(content, other, own.offset);
         file.add(content);
     }
     return first;
@@ -90,8 +90,10 @@ BlockLocation addCircle(HostileFile& file, std::size_t entryBytes, const PutEntr
 TEST(HostileFile, AnIndexThatGoesInCirclesIsRefusedInAReport) {
     HostileFile file;
     const BlockLocation first =
-        addCircle(file, chunkEntryBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
-            putEntry(content, {1, 1, 0, 0, other}, own);
+        addCircle(file, largestIndexBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
+            std::array<ChunkEntry, quadrantCount> entries;
+            entries.fill({1, 1, 0, 0, other});
+            putIndex(content, entries, own);
         });
     file.addRoots({1, 1, 0, 0, first});
     const auto chunks = opened(file.sealed());
@@ -104,10 +106,11 @@ TEST(HostileFile, AnIndexThatGoesInCirclesIsRefusedInAReport) {
 
 TEST(HostileFile, AnIndexOfColoursThatGoesInCirclesIsRefusedInAReport) {
     HostileFile file;
-    const BlockLocation first =
-        addCircle(file, colourEntryBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
-            putColourEntry(content, {other, 0}, own);
-        });
+    const BlockLocation first = addCircle(file, quadrantCount * colourEntryBytes,
+                                          [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
+                                              for (int q = 0; q < quadrantCount; ++q)
+                                                  putColourEntry(content, {other, 0}, own);
+                                          });
     file.addRoots({1, 1, 0, 0, first});
     file.addColourRoots(first);
     const auto chunks = opened(file.sealed());
@@ -120,13 +123,69 @@ TEST(HostileFile, AnIndexOfColoursThatGoesInCirclesIsRefusedInAReport) {
 TEST(HostileFile, AnIndexOfBlocksTooSmallForOneIsRefused) {
     HostileFile file;
     const BlockLocation small{chunkFileHeaderBytes, quadrantCount * chunkEntryBytes};
-    file.add(Bytes(200));
+    Bytes content(200);
+    content[0] = std::byte{0b1111};
+    file.add(content);
     file.addRoots({1, 1, 0, 0, small});
     const auto chunks = opened(file.sealed());
     ASSERT_TRUE(chunks) << chunks.error().message;
     const auto entries = chunks->readEntries({Face::PosX, 0, 0, 0}, small);
     ASSERT_FALSE(entries);
     EXPECT_THAT(entries.error().message, HasSubstr("too small"));
+}
+
+TEST(HostileFile, AnIndexOfMoreThanFourChunksIsRefused) {
+    HostileFile file;
+    Bytes content(200);
+    content[0] = std::byte{0b10001};
+    const BlockLocation block = file.add(content);
+    file.addRoots({1, 1, 0, 0, block});
+    const auto chunks = opened(file.sealed());
+    ASSERT_TRUE(chunks) << chunks.error().message;
+    const auto entries = chunks->readEntries({Face::PosX, 0, 0, 0}, block);
+    ASSERT_FALSE(entries);
+    EXPECT_THAT(entries.error().message, HasSubstr("names chunks that it does not hold"));
+}
+
+TEST(HostileFile, ChildrenBelowTheDeepestLevelAreRefused) {
+    HostileFile file;
+    file.info.shape.faceCellsLog2 = file.info.shape.chunkCellsLog2 + 1;
+    std::array<ChunkEntry, quadrantCount> entries;
+    entries[2] = {1, 1, 0, 0, {chunkFileHeaderBytes, 100}};
+    Bytes content;
+    putIndex(content, entries, 1000);
+    content.resize(2000);
+    const BlockLocation block = file.add(content);
+    file.addRoots({1, 1, 0, 0, block});
+    const auto chunks = opened(file.sealed());
+    ASSERT_TRUE(chunks) << chunks.error().message;
+    const ChunkId root{Face::NegZ, 0, 0, 0};  // the last one, whose key seals the block that all share
+    const std::vector<std::int16_t> flat(static_cast<std::size_t>(chunkVertexCount(file.info.shape)));
+    const auto children = chunks->readChildren(root, block, flat);
+    ASSERT_FALSE(children);
+    EXPECT_THAT(children.error().message, HasSubstr("children below the deepest level"));
+    const auto index = chunks->readEntries(root, block);
+    ASSERT_FALSE(index);
+    EXPECT_THAT(index.error().message, HasSubstr("children below the deepest level"));
+}
+
+TEST(HostileFile, CountsOfChunksThatNoTreeOfTheShapeHasAreRefused) {
+    for (const auto& [chunks, coarsestLeafLevel] : std::vector<std::pair<std::uint64_t, int>>{
+             {0, 0}, {7, 0}, {6, 1}, {26, 2}, {34, 0}, {~std::uint64_t{0}, 0}, {30, 3}}) {
+        HostileFile file;
+        file.info.shape.faceCellsLog2 = file.info.shape.chunkCellsLog2 + 1;  // at most 30 chunks
+        file.info.chunks = chunks;
+        file.info.coarsestLeafLevel = coarsestLeafLevel;
+        file.addRoots({});
+        const auto read = opened(file.sealed());
+        ASSERT_FALSE(read) << chunks;
+        EXPECT_THAT(read.error().message, HasSubstr("hostile.chk: invalid header")) << chunks;
+    }
+    HostileFile file;
+    file.info.shape.faceCellsLog2 = file.info.shape.chunkCellsLog2 + 1;
+    file.info.chunks = 22;
+    file.addRoots({});
+    EXPECT_TRUE(opened(file.sealed()));
 }
 
 // The checksums match, so the error that names the file comes from the check of the blocks' contents.
