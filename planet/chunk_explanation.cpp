@@ -128,8 +128,10 @@ private:
 
     // Returns why a drawn chunk is not split.
     WhyNotSplit whyNotSplit(const ChunkNode& node) const {
+        const bool isLeaf = node.childrenState == ChildrenState::None;
+        if (isLeaf && node.id.level < leafLevel(facts_.tree.shape)) return WhyNotSplit::SourceLimit;
         if (switchDistanceM(node) <= distanceOf(node)) return WhyNotSplit::GoodEnough;
-        if (node.childrenState == ChildrenState::None) return WhyNotSplit::Leaf;
+        if (isLeaf) return WhyNotSplit::Leaf;
         if (node.id.level >= facts_.lod.maxLevel) return WhyNotSplit::LevelLimit;
         switch (node.childrenState) {
             case ChildrenState::Resident:

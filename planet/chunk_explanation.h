@@ -21,13 +21,14 @@ enum class ChunkState : std::uint8_t {
     Loading,        // being read
     NotResident,    // in the file, not requested
     Failed,         // could not be read; decidedByNotSplit says whether permanently
-    NotInFile,      // no such chunk: deeper than the leaves
+    NotInFile,      // no such chunk: an ancestor is a leaf
 };
 
 enum class WhyNotSplit : std::uint8_t {
     IsSplit,
-    NotDrawn,    // there is nothing to split
-    GoodEnough,  // ε <= τ
+    NotDrawn,     // there is nothing to split
+    GoodEnough,   // ε <= τ
+    SourceLimit,  // a leaf above the deepest level: no source is finer here
     Leaf,
     LevelLimit,       // LodSettings::maxLevel
     WaitingForMorph,  // it must first slide back to its own surface

@@ -50,8 +50,8 @@ struct Room {
 };
 // Divides the budget. Too little memory for chunks or colours is an Error; too little for normals turns them
 // off.
-Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid>& colour,
-                     const PagingSettings& settings) {
+Result<Room> roomFor(const PlanetShape& shape, std::uint64_t allChunks,
+                     const std::optional<ColourPyramid>& colour, const PagingSettings& settings) {
     const bool hasNormals = settings.normals && normalLeafLevel(shape) >= 0;
     const BudgetShares shares = sharesOf(settings, colour.has_value(), hasNormals);
     Room room;
@@ -59,7 +59,7 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
     if (hasNormals) {
         const TilePyramid pyramid{"normal tiles", normalLeafLevel(shape), normalTileBytes};
         const Result<std::uint32_t> normals = tileSlotsFor(pyramid, shares.normals, settings.maxNormalTiles);
-        if (normals && chunkSlotsFor(shape, chunkBytes)) {
+        if (normals && chunkSlotsFor(shape, allChunks, chunkBytes)) {
             room.normals = *normals;
             room.normalHeightBytes = shares.normalHeights;
         } else {
@@ -68,7 +68,7 @@ Result<Room> roomFor(const PlanetShape& shape, const std::optional<ColourPyramid
             chunkBytes = sharesOf(settings, colour.has_value(), false).chunks;
         }
     }
-    TRY_ASSIGN(const auto slots, chunkSlotsFor(shape, chunkBytes));
+    TRY_ASSIGN(const auto slots, chunkSlotsFor(shape, allChunks, chunkBytes));
     room.slots = slots;
     if (!colour) return room;
     TRY_ASSIGN(const auto tiles,
@@ -88,10 +88,12 @@ PlanetState::PlanetState(ChunkTree&& tree, std::uint32_t chunkSlots,
 
 Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSettings& settings) {
     TRY(checkSettings(settings));
-    TRY_ASSIGN(const auto room, roomFor(source.shape, source.colour, settings));
+    const std::uint64_t allChunks = source.chunks > 0 ? source.chunks : chunkCountOf(source.shape);
+    TRY_ASSIGN(const auto room, roomFor(source.shape, allChunks, source.colour, settings));
     TRY_ASSIGN(auto tree,
                makeChunkTree(source.shape, source.minStep, source.maxStep, std::move(source.roots))
                    .map_error([&](Error error) { return namingFile(source.file.get(), std::move(error)); }));
+    tree.allChunks = allChunks;
     const int normalLevel = normalLeafLevel(source.shape);
     std::unique_ptr<NormalDeriver> deriver;
     if (normalLevel >= 0) {
@@ -250,7 +252,8 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     PlanetState& state = *state_;
     if (settings == state.settings) return false;
     TRY(checkSettings(settings));
-    TRY_ASSIGN(const auto room, roomFor(state.heights.tree.storedShape, state.colour, settings));
+    const ChunkTree& tree = state.heights.tree;
+    TRY_ASSIGN(const auto room, roomFor(tree.storedShape, tree.allChunks, state.colour, settings));
     const bool otherTime = settings.time != state.settings.time;
     state.settings = settings;
     state.run.retry = settings.retry;

@@ -45,6 +45,7 @@ Result<PlanetSource> planetSource(ChunkFile file) {
     source.shape = shared->info().shape;
     source.minStep = shared->info().minStep;
     source.maxStep = shared->info().maxStep;
+    source.chunks = shared->info().chunks;
     source.loadChildren = [shared](const ChunkId& parent, BlockLocation location,
                                    std::span<const std::int16_t> parentHeights) {
         return shared->readChildren(parent, location, parentHeights);

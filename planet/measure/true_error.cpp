@@ -82,7 +82,6 @@ public:
         : item_(snapshot.items[item]),
           axes_(faceAxes(item_.id.face)),
           grid_(drawnGrid(snapshot.shape, item_, *snapshot.chunks[item].heights, snapshot.stitched)),
-          perCell_(1 << (leafLevel(snapshot.shape) - item_.id.level)),
           eye_(inFaceAxes(axes_, snapshot.view.eyeM)) {
         local_.reserve(grid_.positionM.size());
         for (const glm::dvec3& position : grid_.positionM)
@@ -92,42 +91,41 @@ public:
     const FaceAxes& axes() const { return axes_; }
     const glm::dvec3& eye() const { return eye_; }
     const DrawnGrid& grid() const { return grid_; }
-    int finestCells() const { return grid_.cells * perCell_; }
 
-    // Returns whether a finest sample lies in a cell that stitching changes: in one of the two outermost rows
-    // along an edge.
-    bool inSeam(int x, int y) const {
+    // Returns whether a sample of a grid lies in a cell that stitching changes: in one of the two outermost
+    // rows along an edge. perCell: cells of that grid along a cell of the chunk.
+    bool inSeam(int x, int y, int perCell) const {
         if (!grid_.stitched) return false;
         const int last = grid_.cells - 1;
-        const int column = std::min(x / perCell_, last);
-        const int row = std::min(y / perCell_, last);
+        const int column = std::min(x / perCell, last);
+        const int row = std::min(y / perCell, last);
         const auto moved = [&](Edge edge) { return gathersVertices(item_, edge); };
         return (column <= 1 && moved(Edge::West)) || (column >= last - 1 && moved(Edge::East)) ||
                (row <= 1 && moved(Edge::South)) || (row >= last - 1 && moved(Edge::North));
     }
 
-    // Computes the drawn points at the finest samples x, x + 1, ... of row y, counted from the chunk's
-    // south-west corner.
-    void fill(int x, int y, Row& out) const {
-        const int row = std::min(y / perCell_, grid_.cells - 1);
-        const double t = static_cast<double>(y - row * perCell_) / perCell_;
+    // Computes the drawn points at the samples x, x + 1, ... of row y of such a grid, counted from the
+    // chunk's south-west corner.
+    void fill(int x, int y, int perCell, Row& out) const {
+        const int row = std::min(y / perCell, grid_.cells - 1);
+        const double t = static_cast<double>(y - row * perCell) / perCell;
         for (int i = 0; i < out.count;) {
-            const int column = std::min((x + i) / perCell_, grid_.cells - 1);
-            const int cellEnd = column == grid_.cells - 1 ? out.count : (column + 1) * perCell_ - x;
+            const int column = std::min((x + i) / perCell, grid_.cells - 1);
+            const int cellEnd = column == grid_.cells - 1 ? out.count : (column + 1) * perCell - x;
             const int end = std::min(cellEnd, out.count);
-            if (inSeam(x + i, y))
-                fillSeam(x, y, i, end, out);
+            if (inSeam(x + i, y, perCell))
+                fillSeam(x, y, perCell, i, end, out);
             else
-                fillCell({column, row}, t, x, i, end, out);
+                fillCell({column, row}, t, x, perCell, i, end, out);
             i = end;
         }
     }
 
 private:
-    void fillSeam(int x, int y, int first, int end, Row& out) const {
+    void fillSeam(int x, int y, int perCell, int first, int end, Row& out) const {
         for (int i = first; i < end; ++i) {
-            const glm::dvec3 point = inFaceAxes(axes_, pointOn(grid_, static_cast<double>(x + i) / perCell_,
-                                                               static_cast<double>(y) / perCell_)) -
+            const glm::dvec3 point = inFaceAxes(axes_, pointOn(grid_, static_cast<double>(x + i) / perCell,
+                                                               static_cast<double>(y) / perCell)) -
                                      eye_;
             const auto at = static_cast<std::size_t>(i);
             out.drawnX[at] = point.x;
@@ -138,16 +136,16 @@ private:
 
     // Fills one cell's samples of the row; along it, the drawn point is linear on each of the cell's
     // triangles.
-    void fillCell(glm::ivec2 cell, double t, int x, int first, int end, Row& out) const {
+    void fillCell(glm::ivec2 cell, double t, int x, int perCell, int first, int end, Row& out) const {
         const auto side = static_cast<std::size_t>(grid_.cells) + 1;
         const std::size_t at = static_cast<std::size_t>(cell.y) * side + static_cast<std::size_t>(cell.x);
         const glm::dvec3& southWest = local_[at];
         const glm::dvec3& southEast = local_[at + 1];
         const glm::dvec3& northWest = local_[at + side];
         const glm::dvec3& northEast = local_[at + side + 1];
-        const int west = cell.x * perCell_ - x;  // the cell's west edge, in samples of the row
-        const int diagonal = std::clamp(west + static_cast<int>(std::ceil(t * perCell_)), first, end);
-        const double perSample = 1.0 / perCell_;
+        const int west = cell.x * perCell - x;  // the cell's west edge, in samples of the row
+        const int diagonal = std::clamp(west + static_cast<int>(std::ceil(t * perCell)), first, end);
+        const double perSample = 1.0 / perCell;
         fillLine(southWest + t * (northWest - southWest), (northEast - northWest) * perSample, west, first,
                  diagonal, out);
         fillLine(southWest + t * (northEast - southEast), (southEast - southWest) * perSample, west, diagonal,
@@ -168,7 +166,6 @@ private:
     const DrawItem& item_;
     const FaceAxes& axes_;
     DrawnGrid grid_;
-    int perCell_;  // finest cells along a cell of the chunk
     glm::dvec3 eye_;
     std::vector<glm::dvec3> local_;  // the grid's vertices, relative to the eye, in the face's axes
 };
@@ -273,7 +270,15 @@ void projectRow(const Camera& camera, const Row& row, PieceError& found) {
     }
 }
 
-void takeRow(const Surface& surface, const Camera& camera, const Row& row, int x, int y, PieceError& found) {
+// The place of a row: its first sample, counted from the chunk's south-west corner on a leaf's grid.
+struct RowPlace {
+    int x = 0;
+    int y = 0;
+    int perCell = 1;  // cells of that grid along a cell of the chunk
+};
+
+void takeRow(const Surface& surface, const Camera& camera, const Row& row, const RowPlace& place,
+             PieceError& found) {
     double rowWorst = -1;
     std::size_t worstAt = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(row.count); ++i) {
@@ -286,7 +291,7 @@ void takeRow(const Surface& surface, const Camera& camera, const Row& row, int x
         found.chordSquared = rowWorst;
         found.errorM = std::sqrt(row.errorSquared[worstAt]);
         found.worst = {row.trueX[worstAt], row.trueY[worstAt], row.trueZ[worstAt]};
-        found.inSeam = surface.inSeam(x + static_cast<int>(worstAt), y);
+        found.inSeam = surface.inSeam(place.x + static_cast<int>(worstAt), place.y, place.perCell);
     }
     found.chordSum += sumOf(row);
     found.samples += static_cast<std::uint64_t>(row.count);
@@ -295,30 +300,35 @@ void takeRow(const Surface& surface, const Camera& camera, const Row& row, int x
 }
 
 // Compares a leaf's samples. Samples on an edge between two leaves are compared once, except those on the
-// chunk's own edges.
-void measureLeaf(const PlanetShape& shape, const Surface& surface, const Camera& camera,
+// chunk's own edges. In a sparse planet the leaf beyond an edge may lack samples of the edge, so both leaves
+// compare theirs.
+void measureLeaf(const DrawnSnapshot& snapshot, const Surface& surface, const Camera& camera,
                  const HeldChunk& leaf, Row& row, PieceError& found) {
+    const PlanetShape& shape = snapshot.shape;
     const int cells = chunkCells(shape);
     const ChunkId& top = surface.grid().id;
     const int shift = leaf.id.level - top.level;
     const int x = static_cast<int>(leaf.id.x - (top.x << shift)) * cells;
     const int y = static_cast<int>(leaf.id.y - (top.y << shift)) * cells;
-    row.count = x + cells == surface.finestCells() ? cells + 1 : cells;
-    const int rows = y + cells == surface.finestCells() ? cells + 1 : cells;
+    const int perCell = 1 << shift;
+    const int across = cells * perCell;
+    row.count = snapshot.isSparse || x + cells == across ? cells + 1 : cells;
+    const int rows = snapshot.isSparse || y + cells == across ? cells + 1 : cells;
     const FaceSquare square = faceSquareOf(leaf.id);
     const LeafColumns columns = columnsOf(leaf.id, cells);
     for (int j = 0; j < rows; ++j) {
         const std::int16_t* steps = leaf.heights->data() + static_cast<std::ptrdiff_t>(j) * (cells + 1);
-        surface.fill(x, y + j, row);
+        surface.fill(x, y + j, perCell, row);
         fillTruth(shape, columns, square.v + square.side * j / cells, steps, surface.eye(), row);
         compare(row);
-        takeRow(surface, camera, row, x, y + j, found);
+        takeRow(surface, camera, row, {x, y + j, perCell}, found);
     }
 }
 
 // Returns whether every vertex is a finest sample at its own place, so that there is nothing to compare.
-bool isExact(const DrawItem& item, const DrawnSnapshot& snapshot) {
-    if (item.id.level < leafLevel(snapshot.shape) || item.morph > 0) return false;
+bool isExact(const DrawnSnapshot& snapshot, std::size_t index) {
+    const DrawItem& item = snapshot.items[index];
+    if (snapshot.chunks[index].children.exists() || item.morph > 0) return false;
     for (std::size_t edge = 0; edge < edgeCount; ++edge) {
         if (snapshot.stitched && item.coarserBy[edge] > 0) return false;
         if (item.edgeMorph[edge] > 0) return false;
@@ -326,6 +336,7 @@ bool isExact(const DrawItem& item, const DrawnSnapshot& snapshot) {
     return true;
 }
 
+// Returns the number of samples under a chunk, if all leaves under it are at the deepest level.
 std::uint64_t samplesUnder(const PlanetShape& shape, const ChunkId& id) {
     const auto side = (static_cast<std::uint64_t>(chunkCells(shape)) << (leafLevel(shape) - id.level)) + 1;
     return side * side;
@@ -341,12 +352,19 @@ void addPieces(const ChunkId& id, int levels, std::size_t item, std::vector<Piec
         addPieces(childOf(id, quadrant), levels - 1, item, pieces);
 }
 
+// Returns whether a chunk is the first of its level in quadtree order under another one.
+bool isFirstIn(const ChunkId& id, const ChunkId& above) {
+    const int levels = id.level - above.level;
+    return id.x == above.x << levels && id.y == above.y << levels;
+}
+
 std::vector<Piece> piecesOf(const DrawnSnapshot& snapshot) {
     std::vector<Piece> pieces;
     for (std::size_t i = 0; i < snapshot.items.size(); ++i) {
         const ChunkId& id = snapshot.items[i].id;
-        if (isExact(snapshot.items[i], snapshot)) continue;
-        addPieces(id, std::clamp(leafLevel(snapshot.shape) - id.level - 3, 0, 6), i, pieces);
+        if (isExact(snapshot, i)) continue;
+        const int levels = snapshot.chunks[i].children.exists() ? leafLevel(snapshot.shape) - id.level : 0;
+        addPieces(id, std::clamp(levels - 3, 0, 6), i, pieces);
     }
     return pieces;
 }
@@ -402,9 +420,11 @@ private:
         const Camera& camera = cameras_[static_cast<std::size_t>(piece.top.face)];
         Row row;
         PieceError found;
-        const auto measureTop = [&](const HeldChunk& top) {
-            return heights_.forEachLeaf(snapshot_.shape, top, snapshot_.resident, [&](const HeldChunk& leaf) {
-                measureLeaf(snapshot_.shape, surface, camera, leaf, row, found);
+        const auto measureTop = [&](const HeldChunk& top) -> Result<void> {
+            // A leaf above the piece covers other pieces too; it belongs to the first.
+            if (!isFirstIn(piece.top, top.id)) return {};
+            return heights_.forEachLeaf(top, snapshot_.resident, [&](const HeldChunk& leaf) {
+                measureLeaf(snapshot_, surface, camera, leaf, row, found);
                 return !stopped_;
             });
         };
@@ -413,7 +433,7 @@ private:
                 .and_then(measureTop);
         found_[index] = found;
         if (!measured) return fail(index, measured.error());
-        report(found.samples);
+        report(samplesUnder(snapshot_.shape, piece.top));
     }
 
     // Records the problem of the first piece, if several fail.
@@ -477,6 +497,7 @@ DrawnSnapshot snapshotOf(const ChunkTree& tree, std::span<const DrawItem> items,
     snapshot.view = view;
     snapshot.items.assign(items.begin(), items.end());
     snapshot.stitched = stitched;
+    snapshot.isSparse = isSparse(tree);
     snapshot.chunks.reserve(items.size());
     for (const DrawItem& item : items) {
         const ChunkNode& node = tree.nodes[item.node];
@@ -502,8 +523,7 @@ Result<TrueErrorReport> measureTrueError(const DrawnSnapshot& snapshot, FinestHe
         chunks[i].id = snapshot.items[i].id;
         chunks[i].epsPx = static_cast<double>(snapshot.items[i].epsPx);
         chunks[i].drawnBoundPx = static_cast<double>(snapshot.items[i].drawnBoundPx);
-        if (isExact(snapshot.items[i], snapshot))
-            chunks[i].samples = samplesUnder(snapshot.shape, chunks[i].id);
+        if (isExact(snapshot, i)) chunks[i].samples = chunkVertexCount(snapshot.shape);
     }
     Measuring measuring(snapshot, heights, progress);
     TRY(measuring.run());

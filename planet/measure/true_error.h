@@ -38,6 +38,7 @@ struct DrawnSnapshot {
     std::vector<DrawItem> items;    // their nodes and slots are meaningless here
     std::vector<HeldChunk> chunks;  // of the items, in the same order
     bool stitched = false;          // edges are drawn with RenderSettings::stitched
+    bool isSparse = false;          // some leaves of the planet lie above the deepest level
     ResidentBlocks resident;        // under the chunks
 };
 DrawnSnapshot snapshotOf(const ChunkTree& tree, std::span<const DrawItem> items, const View& view,
@@ -84,7 +85,8 @@ struct TrueErrorReport {
     bool operator==(const TrueErrorReport&) const = default;
 };
 
-// Reports progress: called from one thread at a time, a few times per second. Returning false cancels.
+// Reports progress: called from one thread at a time, a few times per second. Returning false cancels. The
+// numbers are samples of a planet that is as fine everywhere.
 using TrueErrorProgress = std::function<bool(std::uint64_t done, std::uint64_t total)>;
 
 // Measures the snapshot. The Error names the file and the chunk that could not be read, or is of kind

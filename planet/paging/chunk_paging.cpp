@@ -24,7 +24,8 @@ Error namingFile(const ChunkFile* file, Error error) {
     return error;
 }
 
-Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::size_t budgetBytes) {
+Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::uint64_t allChunks,
+                                    std::size_t budgetBytes) {
     const std::size_t bytes = chunkBytesCpu(shape) + chunkBytesGpu(shape);
     const std::size_t wanted = faceCount + 4 * quadrantCount * static_cast<std::size_t>(leafLevel(shape));
     const std::size_t least = std::min<std::uint64_t>(wanted, chunkCountOf(shape));
@@ -33,7 +34,9 @@ Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::size_t budget
                                     budgetBytes, least * bytes));
     }
     constexpr std::uint64_t most = std::uint64_t{1} << 31;
-    const std::uint64_t slots = std::min({std::uint64_t{budgetBytes / bytes}, chunkCountOf(shape), most});
+    // A damaged header may count too few chunks.
+    const std::uint64_t useful = std::max<std::uint64_t>(allChunks, least);
+    const std::uint64_t slots = std::min({std::uint64_t{budgetBytes / bytes}, useful, most});
     return static_cast<std::uint32_t>(slots - (slots - faceCount) % quadrantCount);
 }
 

@@ -78,8 +78,9 @@ private:
 };
 
 // Returns the number of slots that fit a budget: six for the roots and the rest in whole blocks, at most as
-// many as the planet has chunks. The Error names the smallest budget: it allows the finest level at one
-// place, even where four chunks meet.
-Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::size_t budgetBytes);
+// many as the planet has chunks, allChunks. The Error names the smallest budget: it allows the finest level
+// at one place, even where four chunks meet.
+Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::uint64_t allChunks,
+                                    std::size_t budgetBytes);
 
 }  // namespace planet

@@ -104,29 +104,27 @@ Result<HeldChunk> FinestHeights::chunkUnder(const HeldChunk& top, const ChunkId&
                                             const ResidentBlocks& resident) {
     assert(id.level >= top.id.level);
     HeldChunk at = top;
-    while (at.id.level < id.level) {
+    while (at.id.level < id.level && at.children.exists()) {
         TRY_ASSIGN(const auto block, childrenOf(at, resident));
         at = (*block)[static_cast<std::size_t>(quadrantTowards(at.id, id))];
     }
     return at;
 }
 
-Result<bool> FinestHeights::visitLeaves(const PlanetShape& shape, const HeldChunk& top,
-                                        const ResidentBlocks& resident,
+Result<bool> FinestHeights::visitLeaves(const HeldChunk& top, const ResidentBlocks& resident,
                                         const std::function<bool(const HeldChunk& leaf)>& visit) {
-    if (top.id.level >= leafLevel(shape)) return visit(top);
+    if (!top.children.exists()) return visit(top);
     TRY_ASSIGN(const auto block, childrenOf(top, resident));
     for (const HeldChunk& child : *block) {
-        const Result<bool> goOn = visitLeaves(shape, child, resident, visit);
+        const Result<bool> goOn = visitLeaves(child, resident, visit);
         if (!goOn || !*goOn) return goOn;
     }
     return true;
 }
 
-Result<void> FinestHeights::forEachLeaf(const PlanetShape& shape, const HeldChunk& top,
-                                        const ResidentBlocks& resident,
+Result<void> FinestHeights::forEachLeaf(const HeldChunk& top, const ResidentBlocks& resident,
                                         const std::function<bool(const HeldChunk& leaf)>& visit) {
-    TRY(visitLeaves(shape, top, resident, visit));
+    TRY(visitLeaves(top, resident, visit));
     return {};
 }
 

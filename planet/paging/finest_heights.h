@@ -50,11 +50,11 @@ public:
     Result<std::shared_ptr<const HeldBlock>> childrenOf(const HeldChunk& chunk,
                                                         const ResidentBlocks& resident);
 
-    // Returns the chunk with an id at or under a held one.
+    // Returns the chunk with an id at or under a held one, or the leaf that covers its place.
     Result<HeldChunk> chunkUnder(const HeldChunk& top, const ChunkId& id, const ResidentBlocks& resident);
 
     // Visits every leaf at or under a chunk, in quadrant order; visit returns false to stop.
-    Result<void> forEachLeaf(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
+    Result<void> forEachLeaf(const HeldChunk& top, const ResidentBlocks& resident,
                              const std::function<bool(const HeldChunk& leaf)>& visit);
 
     void setCacheBytes(std::size_t bytes);  // as above; drops the excess
@@ -71,7 +71,7 @@ private:
     void dropSurplus();
     std::shared_ptr<const HeldBlock> find(std::uint64_t key);
     void keep(std::uint64_t key, std::shared_ptr<const HeldBlock> block);
-    Result<bool> visitLeaves(const PlanetShape& shape, const HeldChunk& top, const ResidentBlocks& resident,
+    Result<bool> visitLeaves(const HeldChunk& top, const ResidentBlocks& resident,
                              const std::function<bool(const HeldChunk& leaf)>& visit);
 
     const LoadChildren load_;

@@ -45,7 +45,40 @@ double bendAt(double u, double v) {
     return glm::dot(tangents.alongU, tangents.alongV) / glm::dot(tangents.alongV, tangents.alongV);
 }
 
-// The heights of one level's grid over the whole planet.
+// The vertices of a chunk of a level's grid.
+struct GridChunk {
+    std::vector<float> steps;
+    bool isRefined = false;  // finer heights exist
+};
+
+// Returns the vertices that a chunk would have which lies under a leaf: between the leaf's vertices.
+std::vector<float> stepsUnder(const HeldChunk& leaf, const ChunkId& id, int cells) {
+    const int levels = id.level - leaf.id.level;
+    const auto side = static_cast<std::size_t>(cells) + 1;
+    const int firstColumn = static_cast<int>(id.x - (leaf.id.x << levels)) * cells;
+    const int firstRow = static_cast<int>(id.y - (leaf.id.y << levels)) * cells;
+    const auto step = [&](int column, int row) {
+        return static_cast<double>(
+            (*leaf.heights)[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)]);
+    };
+    std::vector<float> steps;
+    steps.reserve(side * side);
+    for (int j = 0; j <= cells; ++j) {
+        const double y = std::ldexp(firstRow + j, -levels);
+        const int row = std::min(static_cast<int>(y), cells - 1);
+        for (int i = 0; i <= cells; ++i) {
+            const double x = std::ldexp(firstColumn + i, -levels);
+            const int column = std::min(static_cast<int>(x), cells - 1);
+            const double south = std::lerp(step(column, row), step(column + 1, row), x - column);
+            const double north = std::lerp(step(column, row + 1), step(column + 1, row + 1), x - column);
+            steps.push_back(static_cast<float>(std::lerp(south, north, y - row)));
+        }
+    }
+    return steps;
+}
+
+// The heights of one level's grid over the whole planet, between the vertices of leaves of coarser levels
+// where the tree is not that deep.
 class LevelGrid {
 public:
     LevelGrid(const PlanetShape& shape, int level, const std::array<HeldChunk, faceCount>& roots,
@@ -56,16 +89,15 @@ public:
     // Returns the Error of the first chunk that could not be read; heights are 0 after it.
     const std::optional<Error>& problem() const { return problem_; }
 
-    // Returns the vertices of a chunk of the level; null after a problem.
-    const std::int16_t* chunk(Face face, int column, int row) {
+    // Returns a chunk of the level; null after a problem.
+    const GridChunk* chunk(Face face, int column, int row) {
         const ChunkId id{face, static_cast<std::uint8_t>(level_), static_cast<std::uint32_t>(column),
                          static_cast<std::uint32_t>(row)};
-        if (lastHeights_ && id == last_) return lastHeights_;
+        if (lastChunk_ && id == last_) return lastChunk_;
         const auto found = chunks_.find(id);
-        const SharedHeights& held = found != chunks_.end() ? found->second : read(id);
         last_ = id;
-        lastHeights_ = held ? held->data() : nullptr;
-        return lastHeights_;
+        lastChunk_ = found != chunks_.end() ? &found->second : read(id);
+        return lastChunk_;
     }
 
     // Returns the height of a point on a face or beyond one of its edges, in steps.
@@ -75,37 +107,43 @@ public:
         const int last = (1 << level_) - 1;
         const int column = std::min(on.column / size, last);
         const int row = std::min(on.row / size, last);
-        const std::int16_t* steps = chunk(on.face, column, row);
-        if (!steps) return 0;
-        return steps[(on.row - row * size) * (size + 1) + on.column - column * size];
+        const GridChunk* held = chunk(on.face, column, row);
+        if (!held) return 0;
+        return static_cast<double>(held->steps[static_cast<std::size_t>((on.row - row * size) * (size + 1) +
+                                                                        on.column - column * size)]);
     }
 
 private:
-    const SharedHeights& read(const ChunkId& id) {
-        static const SharedHeights none;
-        if (problem_) return none;
+    const GridChunk* read(const ChunkId& id) {
+        if (problem_) return nullptr;
         const Result<HeldChunk> held =
             heights_.chunkUnder(roots_[static_cast<std::size_t>(id.face)], id, ResidentBlocks{});
         if (!held) {
             problem_ = held.error();
-            return none;
+            return nullptr;
         }
         if (held->heights->size() != static_cast<std::size_t>(chunkVertexCount(shape_))) {
             problem_ =
                 Error{ErrorKind::BadInput, fmt::format("chunk {} has {} heights; expected {}", toString(id),
                                                        held->heights->size(), chunkVertexCount(shape_))};
-            return none;
+            return nullptr;
         }
-        return chunks_.emplace(id, held->heights).first->second;
+        GridChunk made;
+        if (held->id == id) {
+            made = {{held->heights->begin(), held->heights->end()}, held->children.exists()};
+        } else {
+            made.steps = stepsUnder(*held, id, chunkCells(shape_));
+        }
+        return &chunks_.emplace(id, std::move(made)).first->second;
     }
 
     const PlanetShape& shape_;
     const int level_;
     const std::array<HeldChunk, faceCount>& roots_;
     FinestHeights& heights_;
-    std::unordered_map<ChunkId, SharedHeights> chunks_;
+    std::unordered_map<ChunkId, GridChunk> chunks_;
     ChunkId last_;
-    const std::int16_t* lastHeights_ = nullptr;
+    const GridChunk* lastChunk_ = nullptr;
     std::optional<Error> problem_;
 };
 
@@ -115,11 +153,12 @@ struct Window {
     int firstRow = 0;
     int columns = 0;
     int rows = 0;
-    std::vector<std::int16_t> steps;
+    std::vector<float> steps;
 
     double at(int column, int row) const {
-        return steps[static_cast<std::size_t>(row - firstRow) * static_cast<std::size_t>(columns) +
-                     static_cast<std::size_t>(column - firstColumn)];
+        return static_cast<double>(
+            steps[static_cast<std::size_t>(row - firstRow) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>(column - firstColumn)]);
     }
 };
 
@@ -133,12 +172,13 @@ Covered coveredBy(int chunk, int size, int first, int count) {
 }
 
 void copyChunk(LevelGrid& grid, Face face, int size, int column, int row, Window& window) {
-    const std::int16_t* steps = grid.chunk(face, column, row);
-    if (!steps) return;
+    const GridChunk* chunk = grid.chunk(face, column, row);
+    if (!chunk) return;
     const Covered columns = coveredBy(column, size, window.firstColumn, window.columns);
     const Covered rows = coveredBy(row, size, window.firstRow, window.rows);
     for (int r = rows.first; r < rows.end; ++r) {
-        const std::int16_t* from = steps + (r - row * size) * (size + 1) + columns.first - column * size;
+        const float* from =
+            chunk->steps.data() + (r - row * size) * (size + 1) + columns.first - column * size;
         const auto to = static_cast<std::ptrdiff_t>(r - window.firstRow) * window.columns + columns.first -
                         window.firstColumn;
         std::copy_n(from, columns.end - columns.first, window.steps.begin() + to);
@@ -253,6 +293,20 @@ void putTexel(TileData& tile, int column, int row, const Slope& slope, double sc
     std::memcpy(tile.texels.data() + at, halves.data(), sizeof halves);
 }
 
+// Returns whether finer heights exist somewhere on a tile's own square.
+bool isRefined(LevelGrid& grid, const ChunkId& tile, int size) {
+    const int chunks = tileCells / size;  // along the tile
+    const int firstColumn = static_cast<int>(tile.x) * chunks;
+    const int firstRow = static_cast<int>(tile.y) * chunks;
+    for (int row = firstRow; row < firstRow + chunks; ++row) {
+        for (int column = firstColumn; column < firstColumn + chunks; ++column) {
+            const GridChunk* chunk = grid.chunk(tile.face, column, row);
+            if (chunk && chunk->isRefined) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 int normalLeafLevel(const PlanetShape& shape) {
@@ -297,6 +351,7 @@ Result<TileData> NormalDeriver::tile(const ChunkId& id) {
     if (grid.problem())
         return tl::unexpected(Error{grid.problem()->kind, fmt::format("normals of tile {}: {}", toString(id),
                                                                       grid.problem()->message)});
+    tile.isRefined = isRefined(grid, id, size);
     return tile;
 }
 

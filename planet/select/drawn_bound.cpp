@@ -51,8 +51,8 @@ double edgeSlideM(std::span<const DrawItem> items, const DrawItem& item, std::si
     const double own = mostSlideM(item, metric);
     if (neighbour == noNeighbour) return own;
     const DrawItem& other = items[neighbour];
-    return std::min(
-        own, item.coarserBy[edge] > 0 ? static_cast<double>(other.deltaCM) : mostSlideM(other, metric));
+    if (item.coarserBy[edge] == 0) return std::min(own, mostSlideM(other, metric));
+    return std::min(own, static_cast<double>(std::max(other.deltaCM, item.rimDeltaM[edge])));
 }
 
 // Returns the bound inside a chunk and along its edges that are not stitched to a coarser chunk.
@@ -92,6 +92,13 @@ double ownBoundPx(std::span<const DrawItem> items, const DrawItem& item, const D
     return std::max({inside, std::min(mixedPx, slidPx), gatheredPx});
 }
 
+// Returns the error of a coarser neighbour's edge against the finer data on this side.
+float rimPx(const DrawItem& item, std::size_t edge, double screenScalePx) {
+    const double px =
+        static_cast<double>(item.rimDeltaM[edge]) * screenScalePx / std::max(distanceOf(item), nearestM);
+    return static_cast<float>(px);
+}
+
 }  // namespace
 
 // On the unit sphere, a step along either axis is at most as long as on the cube, whose faces have side 2.
@@ -125,7 +132,8 @@ void fillDrawnBounds(std::span<DrawItem> items, std::span<const DrawnNeighbours>
     for (std::size_t i = 0; i < items.size(); ++i) {
         for (std::size_t edge = 0; edge < edgeCount; ++edge) {
             if (items[i].coarserBy[edge] == 0 || neighbours[i][edge] == noNeighbour) continue;
-            items[i].drawnBoundPx = std::max(items[i].drawnBoundPx, own[i] + own[neighbours[i][edge]]);
+            const float coarserPx = std::max(own[neighbours[i][edge]], rimPx(items[i], edge, screenScalePx));
+            items[i].drawnBoundPx = std::max(items[i].drawnBoundPx, own[i] + coarserPx);
         }
     }
 }

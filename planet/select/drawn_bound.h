@@ -12,7 +12,8 @@
 //                   and it is no nearer than D.
 //   along an edge   An edge e has its own morph m_e. Its vertices also lie on the neighbour, so their slide
 //                   s_e is at most s, at most the s of a neighbour of the same level, and at most the δ of
-//                   a coarser neighbour; and they are no nearer than the neighbour. So everything in the
+//                   a coarser neighbour, or of the data beside it if that is finer (rimDeltaM); and they are
+//                   no nearer than the neighbour. So everything in the
 //                   cells along the edge is at least D_e = max(D, D of the neighbour - L) away, where L is
 //                   the largest distance of two points of a cell. A triangle there mixes vertices of the
 //                   edge with others, so the smaller of two bounds holds:
@@ -23,9 +24,9 @@
 // far above and below its ground, and may contain an eye that is kilometres away from any sample.
 //
 // Along an edge that is stitched to a coarser chunk, a triangle has two of that chunk's vertices and one of
-// its own, so both errors are added. While vertices are gathered (drawn_surface.h), s_e is added again. In
-// these cells this is not a proven bound, because their triangles extend over several cells of the chunk,
-// which no δc measures.
+// its own, so both errors are added. The error of the coarser edge is that against the data on this side.
+// While vertices are gathered (drawn_surface.h), s_e is added again. In these cells this is not a proven
+// bound, because their triangles extend over several cells of the chunk, which no δc measures.
 //
 // Pure functions, any thread.
 #pragma once

@@ -320,6 +320,10 @@ private:
         const std::optional<Edge> back = edgeTowards(coarser, ancestorOf(item.id, coarser.level));
         assert(back);
         beyond.back = *back;
+        if (isSparse(frame_.tree)) {
+            const NodeIndex beside = ancestorAt(frame_.tree, item.node, coarser.level);
+            item.rimDeltaM[edge] = deltaOf(frame_.tree.nodes[beside], settings_.metric);
+        }
         beyond_[beyond.item][static_cast<std::size_t>(*back)].finer = true;
     }
 

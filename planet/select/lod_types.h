@@ -37,8 +37,8 @@ struct LodSettings {
     SkirtDepth skirtDepth = SkirtDepth::Automatic;
     double skirtDepthM = 1000;  // of Fixed, metres, >= 0; cracks show if it is less than the gaps
     // For Automatic: the ratio of the skirt depth to (δc of the chunk + the largest δc of its drawn
-    // neighbours). At 1 no crack shows, because each surface is within its δc of the finest data. 0: no
-    // skirts.
+    // neighbours). At 1 no crack shows, because each surface is within its δc of the finest data; beside a
+    // coarser leaf, δc is that of the data across the edge (skirt_depth.h). 0: no skirts.
     double skirtFactor = 1;
 
     bool operator==(const LodSettings&) const = default;
@@ -62,6 +62,10 @@ struct DrawItem {
     bool mergeWaits = false;
     // The levels by which the drawn neighbour is coarser, by edge, west to north; 0 if it is not coarser.
     std::array<std::uint8_t, edgeCount> coarserBy{};
+    // In a sparse planet, beside a coarser neighbour, by edge: the error of this chunk's ancestor of that
+    // level, metres, which bounds the distance of the neighbour's edge from the finest data on this side
+    // (skirt_depth.h). Otherwise 0.
+    std::array<float, edgeCount> rimDeltaM{};
     // The morph of the vertices of each edge. Two chunks of one level have the same value on both sides: the
     // larger of their morphs. Next to a coarser chunk with Stitched seams, it is that chunk's morph and
     // applies to that chunk's vertices. Otherwise it is the chunk's own morph; with fading it is 1 while the

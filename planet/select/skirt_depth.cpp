@@ -8,12 +8,12 @@ namespace planet {
 
 namespace {
 
-// Returns the error of a chunk with a morph towards its parent, metres.
-float boundM(const ChunkTree& tree, ErrorMetric metric, const DrawItem& item, float morph) {
-    if (morph == 0) return item.deltaCM;
-    const NodeIndex parent = tree.nodes[item.node].parent;
-    if (parent == noNode) return item.deltaCM;
-    return item.deltaCM + morph * (deltaOf(tree.nodes[parent], metric) - item.deltaCM);
+// Returns the error of a chunk with a morph towards its parent, metres. ownM: without the morph.
+float boundM(const ChunkTree& tree, ErrorMetric metric, NodeIndex node, float ownM, float morph) {
+    if (morph == 0) return ownM;
+    const NodeIndex parent = tree.nodes[node].parent;
+    if (parent == noNode) return ownM;
+    return ownM + morph * (deltaOf(tree.nodes[parent], metric) - ownM);
 }
 
 }  // namespace
@@ -23,7 +23,18 @@ float mostApartM(const ChunkTree& tree, ErrorMetric metric, const DrawItem& fine
     const bool level = finer.id.level == coarser.id.level;
     const float morph = finer.edgeMorph[static_cast<std::size_t>(finerEdge)];
     const float coarserMorph = level ? morph : coarser.edgeMorph[static_cast<std::size_t>(coarserEdge)];
-    return boundM(tree, metric, finer, morph) + boundM(tree, metric, coarser, coarserMorph);
+    const float finerM = boundM(tree, metric, finer.node, finer.deltaCM, morph);
+    if (level || !isSparse(tree))
+        return finerM + boundM(tree, metric, coarser.node, coarser.deltaCM, coarserMorph);
+    const NodeIndex beside = ancestorAt(tree, finer.node, coarser.id.level);
+    const float besideM = deltaOf(tree.nodes[beside], metric);
+    return finerM + boundM(tree, metric, beside, besideM, coarserMorph);
+}
+
+NodeIndex ancestorAt(const ChunkTree& tree, NodeIndex finer, int level) {
+    NodeIndex at = finer;
+    while (tree.nodes[at].id.level > level) at = tree.nodes[at].parent;
+    return at;
 }
 
 float leastSkirtDepthM(const ChunkTree& tree, const DrawItem& item) {

@@ -57,7 +57,7 @@ Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const C
     return {};
 }
 
-// Returns A_l + A_l+1 + ... down to the leaves' parents; 0 at a leaf.
+// Returns A_l + A_l+1 + ... down to the parents of the deepest leaves that the shape allows.
 double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
     double sum = 0;
     for (int level = fromLevel; level < leafLevel(shape); ++level) sum += curvatureErrorM(shape, level);
@@ -77,7 +77,8 @@ void setMeasures(const ChunkTree& tree, ChunkNode& node) {
     node.bounds = chunkBounds(directions, shape.radiusM, lowM, highM);
     node.deltaCM = node.storedDeltaCM;
     node.deltaTightM = node.storedDeltaTightM;
-    if (tree.exaggeration == 1) return;
+    // Exaggeration leaves no error at a leaf, whose own samples are the finest.
+    if (tree.exaggeration == 1 || !node.children.exists()) return;
     const double bent = std::abs(tree.exaggeration - 1) * curvatureErrorsM(shape, node.id.level);
     node.deltaCM = roundedUp(tree.exaggeration * node.storedDeltaCM + bent);
     const float tightM = roundedUp(tree.exaggeration * node.storedDeltaTightM + bent);
@@ -101,10 +102,10 @@ ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, st
     node.bounds.cone = directions.cone;
     node.directionLow = directions.low;
     node.directionHigh = directions.high;
-    setMeasures(tree, node);
     node.parent = parent;
     node.childrenState = data.children.exists() ? ChildrenState::Absent : ChildrenState::None;
     node.children = data.children;
+    setMeasures(tree, node);
     node.slot = slot;
     node.heights = std::make_shared<const std::vector<std::int16_t>>(std::move(data.heights));
     return node;
@@ -174,6 +175,7 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, 
     tree.shape = tree.storedShape = shape;
     tree.minStep = minStep;
     tree.maxStep = maxStep;
+    tree.allChunks = chunkCountOf(shape);
     setOccluder(tree);
     for (const Face face : allFaces) {
         const auto index = static_cast<std::uint32_t>(face);

@@ -11,7 +11,9 @@
 // stored + |e - 1| (A_L + A_L+1 + ...) is again a true bound. It is 0 at a leaf, never increases from parent
 // to child, and equals the stored one at e = 1. The same holds for the tight metric, a chunk's distance from
 // the finest samples: on the bare sphere it is also at most A_L + A_L+1 + ... So the tight metric is e stored
-// + |e - 1| (A_L + A_L+1 + ...), or δc if that is less, because δc is a bound too.
+// + |e - 1| (A_L + A_L+1 + ...), or δc if that is less, because δc is a bound too. In a sparse planet, the
+// sum goes down to the deepest level of the planet, which is at least as deep as the leaves below the chunk.
+// A leaf of any level has no error.
 #pragma once
 
 #include <array>
@@ -61,14 +63,21 @@ struct ChunkTree {
     double exaggeration = 1;   // factor on all heights
     std::int16_t minStep = 0;  // over the whole planet
     std::int16_t maxStep = 0;
+    std::uint64_t allChunks = 0;        // of the planet, resident or not
     double occluderRadiusM = 0;         // of a sphere inside every surface the tree can draw
     std::vector<ChunkNode> nodes;       // first the six roots, in face order; the rest free or in fours
     std::vector<NodeIndex> freeGroups;  // first nodes of free groups of four
     std::size_t residentChunks = 0;
 };
 
-// Makes the tree of six roots, given in face order. They stay resident and take slots 0 to 5. The Error names
-// an invalid root, or a lowest height below the planet's centre.
+// Returns whether some leaves lie above the deepest level.
+inline bool isSparse(const ChunkTree& tree) {
+    return tree.allChunks < chunkCountOf(tree.shape);
+}
+
+// Makes the tree of six roots, given in face order. They stay resident and take slots 0 to 5. The planet
+// counts as dense; set allChunks if it is not. The Error names an invalid root, or a lowest height below the
+// planet's centre.
 Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
                                 std::array<ChunkData, faceCount>&& roots);
 

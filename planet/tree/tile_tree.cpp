@@ -9,7 +9,8 @@ namespace planet {
 namespace {
 
 TileNode makeNode(const TileTree& tree, const TileData& tile, NodeIndex parent, std::uint32_t slot) {
-    const bool hasChildren = tree.isDerived ? tile.id.level < tree.leafLevel : tile.children.exists();
+    const bool hasChildren =
+        tree.isDerived ? tile.isRefined && tile.id.level < tree.leafLevel : tile.children.exists();
     TileNode node;
     node.id = tile.id;
     node.directions = chunkDirections(tile.id);

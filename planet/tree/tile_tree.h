@@ -28,8 +28,9 @@ struct TileNode {
 };
 
 struct TileTree {
-    int leafLevel = -1;                 // -1: no tiles
-    bool isDerived = false;             // from heights: children have no location in the file
+    int leafLevel = -1;  // -1: no tiles
+    // From heights: children have no location in the file, and exist where heights are finer.
+    bool isDerived = false;
     std::vector<TileNode> nodes;        // first the six roots, in face order; the rest free or in fours
     std::vector<NodeIndex> freeGroups;  // first nodes of free groups of four
     std::size_t residentTiles = 0;

@@ -43,6 +43,8 @@ std::string drawnText(const ChunkExplanation& chunk) {
         return fmt::format("Should split: {}; {}.", comparison(chunk, ">"), why);
     };
     switch (chunk.notSplit) {
+        case WhyNotSplit::SourceLimit:
+            return fmt::format("Drawn: it is a leaf; no source is finer here than level {}.", chunk.id.level);
         case WhyNotSplit::Leaf:
             return fmt::format("Drawn: {}, but the file has no finer level here.", comparison(chunk, ">"));
         case WhyNotSplit::LevelLimit:
@@ -104,6 +106,7 @@ std::string insteadText(const ChunkExplanation& chunk) {
             return above + " is drawn, because its children could not be read.";
         case WhyNotSplit::IsSplit:
         case WhyNotSplit::NotDrawn:
+        case WhyNotSplit::SourceLimit:
         case WhyNotSplit::Leaf:
             break;
     }

@@ -366,12 +366,11 @@ HeldChunk heldRoot(Face face) {
 TEST(FinestHeights, areThoseOfEveryLeafInTheirOrder) {
     FinestHeights heights(pyramidLoader());
     std::vector<ChunkId> seen;
-    const auto visited =
-        heights.forEachLeaf(fakePyramid().shape, heldRoot(Face::NegY), {}, [&](const HeldChunk& leaf) {
-            EXPECT_EQ(*leaf.heights, fakePyramid().at(leaf.id).heights);
-            seen.push_back(leaf.id);
-            return true;
-        });
+    const auto visited = heights.forEachLeaf(heldRoot(Face::NegY), {}, [&](const HeldChunk& leaf) {
+        EXPECT_EQ(*leaf.heights, fakePyramid().at(leaf.id).heights);
+        seen.push_back(leaf.id);
+        return true;
+    });
     ASSERT_TRUE(visited);
     EXPECT_EQ(seen.size(), 256u);
     EXPECT_EQ(std::set<ChunkId>(seen.begin(), seen.end()).size(), 256u);
@@ -385,11 +384,11 @@ TEST(FinestHeights, keepNoMoreThanTheyMay) {
     constexpr std::size_t most = 40'000;
     FinestHeights heights(pyramidLoader(), most);
     const auto noticeNothing = [](const HeldChunk&) { return true; };
-    ASSERT_TRUE(heights.forEachLeaf(fakePyramid().shape, heldRoot(Face::PosX), {}, noticeNothing));
+    ASSERT_TRUE(heights.forEachLeaf(heldRoot(Face::PosX), {}, noticeNothing));
     EXPECT_LE(heights.cachedBytes(), most);
     EXPECT_GT(heights.cachedBytes(), most / 2);
     FinestHeights none(pyramidLoader(), 0);
-    ASSERT_TRUE(none.forEachLeaf(fakePyramid().shape, heldRoot(Face::PosX), {}, noticeNothing));
+    ASSERT_TRUE(none.forEachLeaf(heldRoot(Face::PosX), {}, noticeNothing));
     EXPECT_EQ(none.cachedBytes(), 0u);
 }
 

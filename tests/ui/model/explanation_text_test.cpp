@@ -52,6 +52,8 @@ TEST(ExplanationText, OfDrawnChunksSaysWhyTheyAreNotSplit) {
         return whySpelled(chunk(ChunkState::Drawn, why, epsPx));
     };
     EXPECT_EQ(drawn(WhyNotSplit::GoodEnough, 1.23), "Drawn: eps 1.2 px is within tau 2.0 px.");
+    EXPECT_EQ(drawn(WhyNotSplit::SourceLimit, 0),
+              "Drawn: it is a leaf; no source is finer here than level 5.");
     EXPECT_EQ(drawn(WhyNotSplit::Leaf, 3.1),
               "Drawn: eps 3.1 px > tau 2.0 px, but the file has no finer level here.");
     EXPECT_EQ(drawn(WhyNotSplit::LevelLimit, 3.1),
