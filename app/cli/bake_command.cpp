@@ -34,6 +34,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"quantum_m", report.shape.quantumM},
                                          {"samples", report.samples},
                                          {"chunks", report.chunks},
+                                         {"coarsest_leaf_level", report.coarsestLeafLevel},
                                          {"file_bytes", report.fileBytes},
                                          {"bits_per_sample", bitsPerSample(report)},
                                          {"missing_samples", report.missingSamples},
@@ -53,6 +54,11 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
                planet::leafLevel(report.shape) + 1, report.chunks, planet::chunkSize(report.shape),
                planet::chunkSize(report.shape), planet::faceCells(report.shape) + 1,
                planet::faceCells(report.shape) + 1);
+    if (report.coarsestLeafLevel < planet::leafLevel(report.shape)) {
+        fmt::print("{} leaves on levels {} to {}, as fine as the sources\n",
+                   planet::leafCountOf(report.chunks), report.coarsestLeafLevel,
+                   planet::leafLevel(report.shape));
+    }
     fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
                bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
                durationText(report.seconds));

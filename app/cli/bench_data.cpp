@@ -82,7 +82,7 @@ struct FaceImage {
 
 Result<void> copyLeaves(const planet::ChunkFile& file, const planet::ChunkData& chunk, FaceImage& image) {
     const planet::PlanetShape& shape = file.info().shape;
-    if (chunk.id.level < planet::leafLevel(shape)) {
+    if (chunk.children.exists()) {
         const auto children = file.readChildren(chunk.id, chunk.children, chunk.heights);
         if (!children) return tl::unexpected(children.error());
         for (const planet::ChunkData& child : *children) {
@@ -162,6 +162,10 @@ struct FinestSizes {
 
 Result<void> addSizes(const planet::ChunkFile& file, planet::Face face, const std::filesystem::path& folder,
                       FinestSizes& sizes) {
+    if (!isDense(file.info())) {
+        return planet::badInput(fmt::format(
+            "{}: has leaves on several levels; expected all leaves at the deepest level", file.name()));
+    }
     const int side = planet::faceCells(file.info().shape) + 1;
     FaceImage image{
         side, std::vector<std::int16_t>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};

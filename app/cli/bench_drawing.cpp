@@ -42,9 +42,8 @@ ViewSettings benchSettings(double tauPx, int budgetMB) {
     return settings;
 }
 
-ViewSettings everyLeaf(const planet::PlanetShape& shape) {
-    const auto bytes =
-        planet::chunkCountOf(shape) * (planet::chunkBytesCpu(shape) + planet::chunkBytesGpu(shape));
+ViewSettings everyLeaf(const planet::ChunkFileInfo& info) {
+    const auto bytes = info.chunks * (planet::chunkBytesCpu(info.shape) + planet::chunkBytesGpu(info.shape));
     ViewSettings settings = benchSettings(1, static_cast<int>(bytes >> 20) + 64);
     settings.lod.morph = false;
     settings.lod.frustumCulling = false;
@@ -248,7 +247,7 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
             return tl::unexpected(added.error());
     }
     const std::string leaves = fmt::format("faces of {}, every leaf", planet.faceSize);
-    if (const Result<void> added = add(leaves, everyLeaf(shape)); !added)
+    if (const Result<void> added = add(leaves, everyLeaf(file->info())); !added)
         return tl::unexpected(added.error());
 
     std::vector<std::function<void()>> frames;

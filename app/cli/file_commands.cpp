@@ -64,6 +64,9 @@ Json infoJson(const ChunkFile& file, const planet::FileReport& report) {
                  {"min_height_m", planet::heightM(info.shape, info.minStep)},
                  {"max_height_m", planet::heightM(info.shape, info.maxStep)},
                  {"missing_samples", info.missingSamples},
+                 {"chunks", info.chunks},
+                 {"leaves", planet::leafCountOf(info.chunks)},
+                 {"coarsest_leaf_level", info.coarsestLeafLevel},
                  {"file_bytes", report.fileBytes},
                  {"finest_samples", report.finestSamples},
                  {"bits_per_sample", report.bitsPerFinestSample},
@@ -71,6 +74,7 @@ Json infoJson(const ChunkFile& file, const planet::FileReport& report) {
     for (const planet::LevelReport& level : report.levels) {
         json["levels"].push_back({{"level", level.level},
                                   {"chunks", level.chunks},
+                                  {"leaves", level.leaves},
                                   {"bytes", level.bytes},
                                   {"min_delta_m", level.minDeltaM},
                                   {"median_delta_m", level.medianDeltaM},
@@ -93,18 +97,21 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
                planet::heightM(shape, info.maxStep), shape.quantumM);
     fmt::print("  faces            {0} x {0} samples\n", planet::faceCells(shape) + 1);
     fmt::print("  chunks           {0} x {0} vertices\n", planet::chunkSize(shape));
+    fmt::print("  leaves           {} of {} chunks, on levels {} to {}\n", planet::leafCountOf(info.chunks),
+               info.chunks, info.coarsestLeafLevel, planet::leafLevel(shape));
     fmt::print("  finest samples   {}; source samples without data: {}\n", report.finestSamples,
                info.missingSamples);
     fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",
                bytesText(static_cast<double>(report.fileBytes)), report.bitsPerFinestSample);
-    fmt::print("{:>29}{:>14}{:>56}{:>14}\n", "", "delta_c, m:", "", "tight, m:");
-    fmt::print("{:>5}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "level", "chunks", "size",
-               "smallest", "median", "99th perc.", "largest", "mean", "mean", "largest");
+    fmt::print("{:>39}{:>14}{:>56}{:>14}\n", "", "delta_c, m:", "", "tight, m:");
+    fmt::print("{:>5}{:>10}{:>10}{:>12}  {:>14}{:>14}{:>14}{:>14}{:>14}{:>14}{:>14}\n", "level", "chunks",
+               "leaves", "size", "smallest", "median", "99th perc.", "largest", "mean", "mean", "largest");
     for (const planet::LevelReport& level : report.levels) {
-        fmt::print("{:>5}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n",
-                   level.level, level.chunks, bytesText(static_cast<double>(level.bytes)), level.minDeltaM,
-                   level.medianDeltaM, level.p99DeltaM, level.maxDeltaM, level.meanDeltaM, level.meanTightM,
-                   level.maxTightM);
+        fmt::print(
+            "{:>5}{:>10}{:>10}{:>12}  {:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}{:>14.3f}\n",
+            level.level, level.chunks, level.leaves, bytesText(static_cast<double>(level.bytes)),
+            level.minDeltaM, level.medianDeltaM, level.p99DeltaM, level.maxDeltaM, level.meanDeltaM,
+            level.meanTightM, level.maxTightM);
     }
 }
 

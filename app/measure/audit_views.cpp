@@ -47,7 +47,7 @@ Result<ChunkData> mostRuggedLeaf(const planet::ChunkFile& file) {
         roots[static_cast<std::size_t>(face)] = std::move(*root);
     }
     ChunkData chunk = takeMostRugged(std::move(roots));
-    while (chunk.id.level < planet::leafLevel(file.info().shape)) {
+    while (chunk.children.exists()) {
         auto children = file.readChildren(chunk.id, chunk.children, chunk.heights);
         if (!children) return tl::unexpected(std::move(children.error()));
         chunk = takeMostRugged(std::move(*children));

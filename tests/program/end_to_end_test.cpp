@@ -55,6 +55,11 @@ TEST(Program, InfoTellsWhatWasBaked) {
     EXPECT_EQ(info["chunk_size"], 17);
     EXPECT_EQ(info["levels"].size(), 4u);
     EXPECT_EQ(info["levels"][3]["chunks"], 6 * 64);
+    EXPECT_EQ(info["levels"][3]["leaves"], 6 * 64);
+    EXPECT_EQ(info["levels"][2]["leaves"], 0);
+    EXPECT_EQ(info["chunks"], 6 * (1 + 4 + 16 + 64));
+    EXPECT_EQ(info["leaves"], 6 * 64);
+    EXPECT_EQ(info["coarsest_leaf_level"], 3);
     EXPECT_EQ(info["levels"][3]["max_delta_m"], 0);
     EXPECT_THAT(info["source"].get<std::string>(), HasSubstr("hills.pgm"));
     EXPECT_THAT(runWorldy(folder, "info planet.chk").output, HasSubstr("hills.pgm"));

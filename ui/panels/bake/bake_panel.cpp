@@ -316,10 +316,11 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
              }),
              "Number of chunks in all levels.");
     valueRow("Samples", value([](const Estimate& e) {
-                 return fmt::format("{}, {} per face side", countText(static_cast<double>(e.samples)),
-                                    planet::faceCells(e.shape) + 1);
+                 const bool sparse = e.coarsestLeafLevel < planet::leafLevel(e.shape);
+                 return fmt::format("{}, {}{} per face side", countText(static_cast<double>(e.samples)),
+                                    sparse ? "up to " : "", planet::faceCells(e.shape) + 1);
              }),
-             "Number of samples at the finest level.");
+             "Number of samples of all leaves. A place is baked only as finely as the sources there.");
     if (!state.edited->colour.empty()) {
         valueRow("Colours", value([](const Estimate& e) { return colourTilesText(e.colour); }),
                  "Number of colour tiles of 256 x 256 texels in all levels, and their estimated share of the "
