@@ -38,6 +38,11 @@ struct RasterArea {
     CoveredSquares covered;
 };
 
+// Returns the cells along a face that lose no samples under a square; 1 if there are none.
+inline int finestCellsIn(const RasterArea& area, const ChunkId& square) {
+    return area.covered.meet(square) ? area.faceCells : 1;
+}
+
 // Reads every sample once. The Error names the file.
 Result<RasterArea> surveyArea(RasterMosaic mosaic);
 

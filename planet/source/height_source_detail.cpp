@@ -202,6 +202,14 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
     result.maxM = source.maxM + detail.limitM;
     result.sampleCount = source.sampleCount;
     result.missingCount = source.missingCount;
+    if (source.finestCells) {
+        // Detail refines the finest parts of a source. Elsewhere its octaves are too small to show.
+        result.finestCells = [of = source.finestCells, finest = shared->cells,
+                              refined = result.naturalFaceSize - 1](const ChunkId& square) {
+            const int cells = of(square);
+            return cells < finest ? cells : refined;
+        };
+    }
     shared->source = std::move(source);
     result.sample = [shared = std::shared_ptr<const Detail>(shared)](const SampleTile& tile,
                                                                      std::span<float> out) {

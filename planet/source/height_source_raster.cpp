@@ -20,7 +20,6 @@ namespace planet {
 namespace {
 
 constexpr int rasterPieceSide = 65;  // samples per side of a piece of a tile
-constexpr int mostFaceCells = 4096;  // of the natural size, because every place is baked at the same depth
 constexpr std::size_t mostRasters = 1u << 20;
 
 struct Rasters {
@@ -100,13 +99,18 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         return badInput(fmt::format("{}: has no heights, because all {} samples are missing; expected some",
                                     path.string(), source.sampleCount));
     }
-    source.naturalFaceSize = std::min(faceCells, mostFaceCells) + 1;
+    source.naturalFaceSize = faceCells + 1;
     source.missingCount = statistics.missingCount;
     const auto fillM = static_cast<float>(settings.fillM);
     const auto shared = std::make_shared<const Rasters>(
         Rasters{std::move(areas), std::min(statistics.minM, fillM), std::max(statistics.maxM, fillM), fillM});
     source.minM = static_cast<double>(shared->minM);
     source.maxM = static_cast<double>(shared->maxM);
+    source.finestCells = [shared](const ChunkId& square) {
+        int cells = 1;
+        for (const RasterArea& area : shared->areas) cells = std::max(cells, finestCellsIn(area, square));
+        return cells;
+    };
     source.sample = [shared](const SampleTile& tile, std::span<float> out) {
         return sampleInPieces(tile, rasterPieceSide, out,
                               [&](const SampleTile& piece, float* to, std::size_t stride) {

@@ -236,7 +236,7 @@ PiecePlaces placesOf(const SampleTile& piece) {
                        std::span(places.latitudeRad).subspan(first, columns),
                        std::span(places.ring).subspan(first, columns)});
     }
-    places.spacingRad = std::numbers::pi / 2 / piece.faceCells;
+    places.spacingRad = std::numbers::pi / 2 / filterCellsOf(piece);
     places.centre = directionOf(piece.face, piece.faceCells, piece.firstColumn + piece.columns / 2,
                                 piece.firstRow + piece.rows / 2);
     // A cell of a face is at most 2 / cells radians long, and half the diagonal of a piece has the middle.

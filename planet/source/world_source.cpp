@@ -116,6 +116,24 @@ Result<void> samplePiece(const World& world, const SampleTile& piece, float* out
     return {};
 }
 
+// Returns the cells along a face that lose no samples of a source under a square.
+int finestCellsIn(const HeightSource& source, const ChunkId& square) {
+    return source.finestCells ? source.finestCells(square) : source.naturalFaceSize - 1;
+}
+
+int finestCellsIn(const World& world, const ChunkId& square) {
+    int cells = 1;
+    for (const WorldPart& part : world.parts) {
+        if (const auto* const source = std::get_if<HeightSource>(&part.content)) {
+            cells = std::max(cells, finestCellsIn(*source, square));
+        } else {
+            cells = std::max(
+                cells, finestCellsIn(std::get<std::unique_ptr<RasterPart>>(part.content)->area, square));
+        }
+    }
+    return cells;
+}
+
 // What a source of heights tells of itself besides its heights.
 struct Extent {
     double minM = 0;
@@ -161,8 +179,9 @@ public:
         source.maxM = world_->maxM;
         source.sampleCount = extent_.sampleCount;
         source.missingCount = extent_.missingCount;
-        source.sample = [world = std::shared_ptr<const World>(std::move(world_))](const SampleTile& tile,
-                                                                                  std::span<float> out) {
+        const std::shared_ptr<const World> world = std::move(world_);
+        source.finestCells = [world](const ChunkId& square) { return finestCellsIn(*world, square); };
+        source.sample = [world](const SampleTile& tile, std::span<float> out) {
             return sampleInPieces(tile, worldPieceSide, out,
                                   [&](const SampleTile& piece, float* to, std::size_t stride) {
                                       return samplePiece(*world, piece, to, stride);
