@@ -66,6 +66,10 @@ fs::path dataFolder() {
     return fs::read_symlink("/proc/self/exe", status).parent_path().parent_path() / "share" / "worldy";
 }
 
+fs::path earthWorld() {
+    return dataFolder() / "earth" / "earth.toml";
+}
+
 fs::path earthElevation() {
     return dataFolder() / "earth" / "elevation.tif";
 }

@@ -23,5 +23,7 @@ std::filesystem::path dataFolder();
 
 // Returns the elevation image of the Earth that comes with Worldy, earth/elevation.tif in dataFolder().
 std::filesystem::path earthElevation();
+// Returns the world file of the Earth that Worldy opens: that image with two finer regions, earth/earth.toml.
+std::filesystem::path earthWorld();
 
 }  // namespace worldy

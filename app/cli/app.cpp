@@ -62,7 +62,7 @@ Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& setting
     const bool fromSettings = options.file.empty() && !settings.dataSet.empty();
     const fs::path named = !options.file.empty() ? options.file
                            : fromSettings        ? fs::path(settings.dataSet)
-                                                 : earthElevation();
+                                                 : earthWorld();
     // The settings' own image is also the source of the colour tiles.
     const bool ownPicture = fromSettings && !settings.colourImage.empty();
     Result<DataSet> set =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -34,8 +35,9 @@ std::string shortened(const std::string& name) {
     return name.substr(0, length);
 }
 
-// The source that a bake of the built-in Earth names.
-constexpr std::string_view ourEarth = "elevation.tif, 4320 x 2160 int16, equirectangular";
+// The sources that bakes of the built-in Earth name.
+constexpr std::array<std::string_view, 2> ourEarths = {"elevation.tif, 4320 x 2160 int16, equirectangular",
+                                                       "earth.toml, 3 layers"};
 
 // Returns colourImage if its name is that of the image that the colours were baked from. A chunk file does
 // not store the folder of the image.
@@ -97,7 +99,8 @@ fs::path colourImageOf(const fs::path& chunkFile) {
     if (!beside.empty()) return beside;
     const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(chunkFile);
     if (!file) return {};
-    if (file->info().source == ourEarth) return colourImageBeside(earthElevation());
+    if (std::ranges::find(ourEarths, file->info().source) != ourEarths.end())
+        return colourImageBeside(earthElevation());
     const fs::path source = sourceOf(file->info());
     return source.empty() ? fs::path() : ownColourImage(source);
 }

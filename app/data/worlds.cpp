@@ -35,8 +35,10 @@ std::vector<World> worlds() {
     // sample.
     const planet::DetailTerrain detail{.strength = 2};
     return {
-        world("earth", "Earth", "Built-in elevation and bathymetry, 5 arcmin.", earth, earthRadiusM,
-              std::nullopt),
+        world("earth", "Earth",
+              "Built-in elevation and bathymetry, 9 km, with the Andes at Aconcagua and the coast at "
+              "Vancouver at 90 m.",
+              earthWorld().string(), earthRadiusM, std::nullopt),
         world("earth-amplified", "Earth amplified",
               "Earth with fractal detail: 1.2 km at this face size, 100 m at 131073.",
               planet::terrainText({detail, earth}), earthRadiusM, 8193),

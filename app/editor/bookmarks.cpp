@@ -22,6 +22,8 @@ constexpr std::size_t longestName = 60;  // bytes
 
 std::vector<ui::Bookmark> shippedBookmarks() {
     return {
+        {"Aconcagua", {-32.95, -70.45, 9'000, 48, -10}, true},
+        {"Vancouver", {49.12, -123.25, 5'000, 8, -10}, true},
         {"Himalaya", {26.7, 86.5, 22'000, 12, -9}, true},
         {"Andes", {-19.4, -70.9, 24'000, 50, -11}, true},
         {"Grand Canyon", {35.2, -113.0, 22'000, 38, -15}, true},

@@ -261,6 +261,28 @@ Result<void> RasterMosaic::readSamples(const GridRect& rect, std::span<float> ou
     return {};
 }
 
+void RasterMosaic::markTiles(const GridRect& rect, std::span<float> out) const {
+    assert(out.size() == countOf(rect));
+    std::ranges::fill(out, missing);
+    const auto mark = [&](const GridRect& part) {
+        for (std::int64_t row = part.row; row < part.row + part.rows; ++row)
+            std::fill_n(&out[indexIn(rect, part.column, row)], part.columns, 0.0f);
+    };
+    const Result<void> marked = forTilesIn(rect, [&](std::size_t, const GridRect& place) -> Result<void> {
+        mark(sharedBy(place, rect));
+        return {};
+    });
+    assert(marked);
+    static_cast<void>(marked);
+    if (period_ == 0) return;
+    const double firstPole = std::min(placement_.northRow(), placement_.southRow());
+    const double lastPole = std::max(placement_.northRow(), placement_.southRow());
+    for (std::int64_t row = rect.row; row < rect.row + rect.rows; ++row) {
+        if (static_cast<double>(row) < firstPole || static_cast<double>(row) > lastPole)
+            mark({rect.column, row, rect.columns, 1});
+    }
+}
+
 // Returns a block of a reduced resolution as the means of pairs of the next finer one, along the axis that is
 // reduced more.
 Result<std::vector<float>> RasterMosaic::reducedBlock(GridReduction reduction, std::int64_t blockX,

@@ -57,6 +57,10 @@ public:
     // with a height there counts. Beyond a pole, a grid that repeats goes on half a turn further.
     Result<void> read(GridReduction reduction, const GridRect& rect, std::span<float> out) const;
 
+    // Sets the samples of a rectangle to 0 where a tile lies, whether it has a height there or not, and beyond a pole;
+    // to NaN elsewhere.
+    void markTiles(const GridRect& rect, std::span<float> out) const;
+
 private:
     RasterMosaic(const GdalRaster& first, RasterPlacement placement, std::shared_ptr<HeightBlockCache> cache,
                  int number);

@@ -28,8 +28,8 @@ struct CoveredCells {
     std::vector<std::uint8_t> covered;
 };
 
-Result<CoveredCells> coveredCells(const RasterMosaic& mosaic, const GridReduction& cell,
-                                  const GridRect& cells) {
+Result<CoveredCells> coveredCells(const RasterMosaic& mosaic, RimDistance::Rims rims,
+                                  const GridReduction& cell, const GridRect& cells) {
     CoveredCells result{cells.columns,
                         std::vector<std::uint8_t>(static_cast<std::size_t>(cells.columns * cells.rows), 1)};
     const std::int64_t width = cells.columns << cell.columnsLog2;
@@ -40,10 +40,13 @@ Result<CoveredCells> coveredCells(const RasterMosaic& mosaic, const GridReductio
         for (std::int64_t done = 0; done < cellRows; done += bandRows) {
             const std::int64_t rows = std::min(bandRows, cellRows - done);
             heights.resize(static_cast<std::size_t>(width * rows));
-            TRY(mosaic.read(
-                {},
-                {cells.column << cell.columnsLog2, ((cells.row + row) << cell.rowsLog2) + done, width, rows},
-                heights));
+            const GridRect band{cells.column << cell.columnsLog2, ((cells.row + row) << cell.rowsLog2) + done,
+                                width, rows};
+            if (rims == RimDistance::Rims::Tiles) {
+                mosaic.markTiles(band, heights);
+            } else {
+                TRY(mosaic.read({}, band, heights));
+            }
             for (std::size_t i = 0; i < heights.size(); ++i) {
                 if (!std::isnan(heights[i])) continue;
                 const auto column =
@@ -71,8 +74,11 @@ void distancesInRow(std::span<const std::uint8_t> covered, std::span<float> dist
 
 }  // namespace
 
-RimDistance::RimDistance(const RasterArea& area, double reachRad)
-    : area_(&area), reachRad_(reachRad), cache_(std::make_shared<HeightBlockCache>(rimCacheBytes)) {
+RimDistance::RimDistance(const RasterArea& area, double reachRad, Rims rims)
+    : area_(&area),
+      reachRad_(reachRad),
+      rims_(rims),
+      cache_(std::make_shared<HeightBlockCache>(rimCacheBytes)) {
     const RasterPlacement& placement = area.mosaic.placement();
     SampleDensity density{placement.columnsAround() / (2 * std::numbers::pi), placement.rowsPerRad()};
     if (placement.columnsAround() <= 0) density = densitiesAt(placement, {area.centre})[0];
@@ -105,7 +111,7 @@ Result<std::vector<float>> RimDistance::block(int blockX, int blockY) const {
     const std::int64_t side = blockCells + 1;
     const GridRect cells{firstColumn - marginColumns, firstRow - marginRows, side + 2 * marginColumns,
                          side + 2 * marginRows};
-    TRY_ASSIGN(const auto covered, coveredCells(area_->mosaic, cell_, cells));
+    TRY_ASSIGN(const auto covered, coveredCells(area_->mosaic, rims_, cell_, cells));
     std::vector<float> across(covered.covered.size());
     const auto width = static_cast<std::size_t>(cells.columns);
     for (std::size_t row = 0; row < static_cast<std::size_t>(cells.rows); ++row)

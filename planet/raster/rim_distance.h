@@ -1,7 +1,7 @@
-// The distance of places from the rim of what a mosaic of rasters covers, for blends at its rim. A missing sample is
-// a rim too. Internal to the library; any thread.
+// The distance of places from the rim of what a mosaic of rasters covers, for blends at its rim. Internal to the library; any thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,11 +14,14 @@ namespace planet {
 
 // Distances up to a reach. They are found on cells of about a sixteenth of the reach, or of one sample if that is
 // larger, and interpolated between the middles of cells, so they are continuous. A cell counts as covered only if all
-// its samples have heights. Copies share the cache.
+// its samples are. Copies share the cache.
 class RimDistance {
 public:
+    // What bounds the coverage: only the edges of tiles, or samples without a height too.
+    enum class Rims : std::uint8_t { Tiles, TilesAndVoids };
+
     // area: must outlive this. reachRad: (0, 1].
-    RimDistance(const RasterArea& area, double reachRad);
+    RimDistance(const RasterArea& area, double reachRad, Rims rims);
 
     double reachRad() const { return reachRad_; }
 
@@ -33,6 +36,7 @@ private:
 
     const RasterArea* area_;
     double reachRad_;
+    Rims rims_;
     GridReduction cell_;  // a cell has 2^columnsLog2 x 2^rowsLog2 samples
     double rowRad_ = 0;   // the height of a cell
     double columnRad_ =

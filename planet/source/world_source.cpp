@@ -227,7 +227,11 @@ private:
         for (RasterArea& area : areas) {
             widen(layer, extentOf(area));
             auto part = std::make_unique<RasterPart>(RasterPart{std::move(area), {}});
-            if (layer.featherM > 0) part->rim.emplace(part->area, std::min(1.0, layer.featherM / radiusM_));
+            if (layer.featherM > 0) {
+                const bool showsBelow = layer.voids == LayerVoids::Below;
+                part->rim.emplace(part->area, std::min(1.0, layer.featherM / radiusM_),
+                                  showsBelow ? RimDistance::Rims::TilesAndVoids : RimDistance::Rims::Tiles);
+            }
             world_->parts.push_back({layer, std::move(part)});
         }
         return {};

@@ -19,38 +19,28 @@
 #include "planet/format/chunk_file_format.h"
 #include "planet/select/drawn_surface.h"
 #include "planet/source/sample_tiles.h"
+#include "tests/support/chunks_of_file.h"
 #include "tests/support/sparse_source.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planet {
 namespace {
 
-using Chunks = std::unordered_map<ChunkId, ChunkData>;
+using test::Chunks;
+using test::chunksOf;
+using test::unmorphed;
 using testing::HasSubstr;
 using ::tests::contentOf;
 using ::tests::TemporaryFolder;
 
-void addAll(const ChunkFile& file, const ChunkData& chunk, Chunks& chunks) {
-    chunks.emplace(chunk.id, chunk);
-    if (!chunk.children.exists()) return;
-    const auto children = file.readChildren(chunk.id, chunk.children, chunk.heights).value();
-    for (const ChunkData& child : children) addAll(file, child, chunks);
-}
-
-Chunks chunksOf(const ChunkFile& file) {
-    Chunks chunks;
-    for (const Face face : allFaces) addAll(file, file.readRoot(face).value(), chunks);
-    return chunks;
-}
-
-struct Baked {
+struct BakedTree {
     TemporaryFolder folder;
     BakeReport report;
     ChunkFileInfo info;
     PlanetShape shape;
     Chunks chunks;
 
-    Baked(const HeightSource& source, const BakeSettings& settings) {
+    BakedTree(const HeightSource& source, const BakeSettings& settings) {
         const auto baked = bake(source, settings, path());
         EXPECT_TRUE(baked) << (baked ? "" : baked.error().message);
         report = baked.value();
@@ -62,12 +52,6 @@ struct Baked {
     std::filesystem::path path() const { return folder / "a.chk"; }
 };
 
-DrawnGrid unmorphed(const PlanetShape& shape, const ChunkData& chunk) {
-    DrawItem item;
-    item.id = chunk.id;
-    return drawnGrid(shape, item, chunk.heights, false);
-}
-
 // Calls visit for each leaf at or under a chunk.
 void forEachLeaf(const Chunks& chunks, const ChunkId& id,
                  const std::function<void(const ChunkData&)>& visit) {
@@ -77,7 +61,7 @@ void forEachLeaf(const Chunks& chunks, const ChunkId& id,
 }
 
 // Returns the largest distance of the samples of all leaves under a chunk from its surface.
-double bruteForceM(const Baked& baked, const ChunkData& chunk) {
+double farthestSampleM(const BakedTree& baked, const ChunkData& chunk) {
     const int cells = chunkCells(baked.shape);
     const DrawnGrid drawn = unmorphed(baked.shape, chunk);
     double most = 0;
@@ -100,7 +84,7 @@ double bruteForceM(const Baked& baked, const ChunkData& chunk) {
 
 TEST(SparseBake, refinesWhereTheSourceIsFineAndNowhereElse) {
     const HeightSource source = test::sparseHills(2048);
-    const Baked baked(source, {.chunkSize = 17});
+    const BakedTree baked(source, {.chunkSize = 17});
     EXPECT_EQ(leafLevel(baked.shape), 7);
     std::uint64_t leaves = 0;
     for (const auto& [id, chunk] : baked.chunks) {
@@ -123,7 +107,7 @@ TEST(SparseBake, refinesWhereTheSourceIsFineAndNowhereElse) {
 }
 
 TEST(SparseBake, holdsTheSourcesHeightsAtEveryVertexOfEveryLevel) {
-    const Baked baked(test::sparseHills(4096), {.chunkSize = 33});
+    const BakedTree baked(test::sparseHills(4096), {.chunkSize = 33});
     const int cells = chunkCells(baked.shape);
     for (const auto& [id, chunk] : baked.chunks) {
         const FaceSquare square = faceSquareOf(id);
@@ -160,9 +144,9 @@ HeightSource filteredSource(int faceSize) {
 }
 
 TEST(SparseBake, hasTheHeightsAndDecisionsOfADenseBakeWhereBothHaveAChunk) {
-    const Baked dense(filteredSource(1025), {.chunkSize = 17});
-    const Baked sparse(test::sparse(filteredSource(1025), test::middleEdgeAndCorner(1024)),
-                       {.chunkSize = 17});
+    const BakedTree dense(filteredSource(1025), {.chunkSize = 17});
+    const BakedTree sparse(test::sparse(filteredSource(1025), test::middleEdgeAndCorner(1024)),
+                           {.chunkSize = 17});
     int whole = 0;
     for (const auto& [id, chunk] : sparse.chunks) {
         const ChunkData& other = dense.chunks.at(id);
@@ -208,14 +192,14 @@ HeightSource roughSparse(int cells) {
 class SparseErrors : public testing::TestWithParam<std::optional<int>> {};
 
 TEST_P(SparseErrors, AreThoseOfTheSamplesOfAllLeavesUnderAChunk) {
-    const Baked baked(roughSparse(4096), {.chunkSize = 17, .radiusM = 60e3, .tileLevels = GetParam()});
+    const BakedTree baked(roughSparse(4096), {.chunkSize = 17, .radiusM = 60e3, .tileLevels = GetParam()});
     for (const auto& [id, chunk] : baked.chunks) {
         if (!chunk.children.exists()) continue;
         // Chunks over leaves of one level are tested elsewhere, and there are thousands of them.
         const bool mixed = isRefined(roughSparse(4096), baked.shape, childOf(id, 0)) !=
                            isRefined(roughSparse(4096), baked.shape, childOf(id, 3));
         if (!mixed && id.level > 2) continue;
-        const double own = bruteForceM(baked, chunk);
+        const double own = farthestSampleM(baked, chunk);
         float ofChildren = 0;
         for (int q = 0; q < quadrantCount; ++q)
             ofChildren = std::max(ofChildren, baked.chunks.at(childOf(id, q)).deltaTightM);
@@ -234,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(TileLevels, SparseErrors, testing::Values(std::nullopt,
 TEST(SparseBake, verifyFindsNothingWrongAndTheSourceMatches) {
     const HeightSource source = test::sparseHills(4096);
     for (const int chunk : {17, 33, 129}) {
-        const Baked baked(source, {.chunkSize = chunk});
+        const BakedTree baked(source, {.chunkSize = chunk});
         const auto report = verifyFile(*ChunkFile::open(baked.path()), &source);
         ASSERT_TRUE(report);
         EXPECT_EQ(report->problemCount, 0u) << report->problems.front();
@@ -245,7 +229,7 @@ TEST(SparseBake, verifyFindsNothingWrongAndTheSourceMatches) {
 }
 
 TEST(SparseBake, verifySeesAHeaderThatCountsOtherChunks) {
-    const Baked baked(test::sparseHills(1024), {.chunkSize = 33});
+    const BakedTree baked(test::sparseHills(1024), {.chunkSize = 33});
     const std::string text = contentOf(baked.path());
     std::vector<std::byte> bytes(text.size());
     std::memcpy(bytes.data(), text.data(), text.size());
@@ -299,7 +283,7 @@ TEST(SparseBake, samplesTheFinePlacesAndTheCoarsePlanetWithOneFilter) {
     // Two hundredths of a degree wide.
     const HeightSource source =
         watched.watch(test::sparse(flat, {test::boxAround({0.3, 0.2, 1}, 0.0002, cells)}), cells);
-    const Baked baked(source, {.chunkSize = 33});
+    const BakedTree baked(source, {.chunkSize = 33});
     EXPECT_EQ(leafLevel(baked.shape), 12);
     EXPECT_EQ(watched.otherFilters, 0);
     // Each leaf has 33^2 samples; a few units share some.
@@ -313,7 +297,7 @@ TEST(SparseBake, samplesTheFinePlacesAndTheCoarsePlanetWithOneFilter) {
 }
 
 TEST(SparseBake, isEstimatedWithinAFactorOfOneAndAHalf) {
-    const Baked baked(test::sparseHills(4096), {.chunkSize = 17});
+    const BakedTree baked(test::sparseHills(4096), {.chunkSize = 17});
     const auto estimate = estimateBake(test::sparseHills(4096), {.chunkSize = 17});
     ASSERT_TRUE(estimate);
     const double ratio = estimate->fileBytes / static_cast<double>(baked.report.fileBytes);
@@ -322,7 +306,7 @@ TEST(SparseBake, isEstimatedWithinAFactorOfOneAndAHalf) {
 }
 
 TEST(SparseBake, reportsLeavesOfEachLevel) {
-    const Baked baked(test::sparseHills(2048), {.chunkSize = 17});
+    const BakedTree baked(test::sparseHills(2048), {.chunkSize = 17});
     const auto report = reportFile(*ChunkFile::open(baked.path()));
     ASSERT_TRUE(report) << report.error().message;
     std::vector<std::uint64_t> chunks(report->levels.size()), leaves(report->levels.size());
@@ -340,7 +324,7 @@ TEST(SparseBake, reportsLeavesOfEachLevel) {
 }
 
 TEST(SparseBake, probesDownToTheLeafAtThePlace) {
-    const Baked baked(test::sparseHills(4096), {.chunkSize = 17});
+    const BakedTree baked(test::sparseHills(4096), {.chunkSize = 17});
     const auto file = ChunkFile::open(baked.path());
     const auto fine = probeFile(*file, geographicFromDirection(sphereFromCube({0.1, 0.2, 1})));
     const auto coarse = probeFile(*file, geographicFromDirection(sphereFromCube({0.7, 0.2, 1})));

@@ -19,27 +19,17 @@
 #include "planet/format/chunk_file.h"
 #include "planet/format/chunk_file_format.h"
 #include "planet/select/drawn_surface.h"
+#include "tests/support/chunks_of_file.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planet {
 namespace {
 
+using test::Chunks;
+using test::chunksOf;
+using test::unmorphed;
 using testing::HasSubstr;
-using Chunks = std::unordered_map<ChunkId, ChunkData>;
-
-void addAll(const ChunkFile& file, const ChunkData& chunk, Chunks& chunks) {
-    chunks.emplace(chunk.id, chunk);
-    if (chunk.id.level == leafLevel(file.info().shape)) return;
-    const auto children = file.readChildren(chunk.id, chunk.children, chunk.heights).value();
-    for (const ChunkData& child : children) addAll(file, child, chunks);
-}
-
-Chunks chunksOf(const ChunkFile& file) {
-    Chunks chunks;
-    for (const Face face : allFaces) addAll(file, file.readRoot(face).value(), chunks);
-    return chunks;
-}
 
 struct Baked {
     tests::TemporaryFolder folder;
@@ -64,12 +54,6 @@ HeightSource roughSource(int faceSize) {
                               300 * std::sin(9001 * d.x + 7 * d.z) * std::sin(8009 * d.y + 7507 * d.z));
         },
         -3000, 3000, 1, faceSize);
-}
-
-DrawnGrid unmorphed(const PlanetShape& shape, const ChunkData& chunk) {
-    DrawItem item;
-    item.id = chunk.id;
-    return drawnGrid(shape, item, chunk.heights, false);
 }
 
 // By looking at every finest sample under the chunk.

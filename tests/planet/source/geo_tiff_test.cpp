@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "planet/source/colour_source.h"
 #include "planet/raster/image_placement.h"
+#include "planet/source/colour_source.h"
 #include "tests/planet/source/height_source_fixture.h"
 
 namespace planet {

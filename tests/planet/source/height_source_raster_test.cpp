@@ -18,12 +18,12 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using tests::Crs;
-using tests::Grid;
-using tests::gridAround;
-using tests::RasterFile;
-using tests::samplesOf;
-using tests::writeRaster;
+using test::Crs;
+using test::gridAround;
+using test::RasterFile;
+using test::SampleGrid;
+using test::samplesOf;
+using test::writeRaster;
 
 const std::filesystem::path regions = std::filesystem::path(WORLDY_SOURCE_DIR) / "data/regions";
 
@@ -31,7 +31,7 @@ constexpr double radPerDeg = std::numbers::pi / 180;
 constexpr int finest = 1 << 22;
 
 // Continents, ridges and a peak at a place.
-tests::Heights terrainAround(double longitudeDeg, double latitudeDeg) {
+test::Heights terrainAround(double longitudeDeg, double latitudeDeg) {
     return [=](double longitude, double latitude) {
         const double east = std::remainder(longitude - longitudeDeg, 360) * std::cos(latitudeDeg * radPerDeg);
         const double north = latitude - latitudeDeg;
@@ -72,7 +72,7 @@ struct Interpolated {
     double height = 0;
     double bound = 0;
 };
-Interpolated interpolated(const Grid& grid, const Crs& crs, std::span<const float> samples,
+Interpolated interpolated(const SampleGrid& grid, const Crs& crs, std::span<const float> samples,
                           double longitudeDeg, double latitudeDeg) {
     double x = longitudeDeg;
     double y = latitudeDeg;
@@ -119,8 +119,9 @@ TEST(RasterSource, HeightsOfFiveProjectionsAreThoseOfTheSurface) {
         const auto surface = terrainAround(projection.longitudeDeg, projection.latitudeDeg);
         const Crs crs(projection.epsg);
         for (const double spacingM : {1500.0, 400.0, 90.0}) {
-            const Grid grid = gridAround(projection.epsg, projection.longitudeDeg, projection.latitudeDeg,
-                                         120, 90, spacingM / projection.metresPerUnit);
+            const SampleGrid grid =
+                gridAround(projection.epsg, projection.longitudeDeg, projection.latitudeDeg, 120, 90,
+                           spacingM / projection.metresPerUnit);
             const std::vector<float> samples = samplesOf(grid, surface);
             for (const bool isPoint : {false, true}) {
                 const auto path = folder / "raster.tif";
@@ -157,8 +158,8 @@ TEST(RasterSource, SamplesHalfAStepOffAreNoticed) {
     const Projected& utm = projections[1];
     const auto surface = terrainAround(utm.longitudeDeg, utm.latitudeDeg);
     const Crs crs(utm.epsg);
-    const Grid grid = gridAround(utm.epsg, utm.longitudeDeg, utm.latitudeDeg, 120, 90, 200);
-    Grid shifted = grid;
+    const SampleGrid grid = gridAround(utm.epsg, utm.longitudeDeg, utm.latitudeDeg, 120, 90, 200);
+    SampleGrid shifted = grid;
     shifted.x += grid.step / 2;
     const TemporaryFolder folder;
     const std::vector<float> samples = samplesOf(grid, surface);
@@ -182,11 +183,11 @@ std::vector<float> heightsAround(const HeightSource& source, double longitudeDeg
     return heights;
 }
 
-Grid partOf(const Grid& grid, int column, int row, int width, int height) {
+SampleGrid partOf(const SampleGrid& grid, int column, int row, int width, int height) {
     return {grid.epsg, width, height, grid.x + column * grid.step, grid.y - row * grid.step, grid.step};
 }
 
-std::vector<float> samplesOfPart(const Grid& grid, std::span<const float> samples, int column, int row,
+std::vector<float> samplesOfPart(const SampleGrid& grid, std::span<const float> samples, int column, int row,
                                  int width, int height) {
     std::vector<float> part;
     for (int j = row; j < row + height; ++j) {
@@ -200,8 +201,8 @@ std::vector<float> samplesOfPart(const Grid& grid, std::span<const float> sample
 TEST(RasterSource, FortyTilesAreTheWholeRasterToTheBit) {
     const TemporaryFolder folder;
     for (const Projected& projection : {projections[0], projections[1]}) {
-        const Grid grid = gridAround(projection.epsg, projection.longitudeDeg, projection.latitudeDeg, 400,
-                                     250, 200 / projection.metresPerUnit);
+        const SampleGrid grid = gridAround(projection.epsg, projection.longitudeDeg, projection.latitudeDeg,
+                                           400, 250, 200 / projection.metresPerUnit);
         const std::vector<float> samples =
             samplesOf(grid, terrainAround(projection.longitudeDeg, projection.latitudeDeg));
         writeRaster(folder / "whole.tif", grid, samples);
@@ -223,7 +224,7 @@ TEST(RasterSource, FortyTilesAreTheWholeRasterToTheBit) {
 
 TEST(RasterSource, OrderOfTilesThatAgreeDoesNotMatter) {
     const TemporaryFolder folder;
-    const Grid grid = gridAround(4326, 10, 45, 120, 60, 0.002);
+    const SampleGrid grid = gridAround(4326, 10, 45, 120, 60, 0.002);
     const std::vector<float> samples = samplesOf(grid, terrainAround(10, 45));
     const auto write = [&](const char* name, int column) {
         writeRaster(folder / name, partOf(grid, column, 0, 61, 60),
@@ -254,7 +255,7 @@ TEST(RasterSource, FinerRasterLiesOnTopWhateverItsName) {
 // The heights with and without voids agree in every bit further than the kernel's two samples away from them.
 TEST(RasterSource, VoidsNeverBleed) {
     const TemporaryFolder folder;
-    const Grid grid = gridAround(32632, 10, 45, 200, 150, 100);
+    const SampleGrid grid = gridAround(32632, 10, 45, 200, 150, 100);
     const std::vector<float> samples = samplesOf(grid, terrainAround(10, 45));
     writeRaster(folder / "whole.tif", grid, samples);
     const HeightSource whole = mustOpen(folder / "whole.tif");
@@ -312,7 +313,7 @@ TEST(RasterSource, VoidsNeverBleed) {
 
 TEST(RasterSource, MasksAndAlphaHideSamples) {
     const TemporaryFolder folder;
-    const Grid grid = gridAround(4326, 10, 45, 40, 40, 0.01);
+    const SampleGrid grid = gridAround(4326, 10, 45, 40, 40, 0.01);
     std::vector<std::uint8_t> mask(1600, 255);
     for (std::size_t i = 0; i < mask.size(); ++i) {
         if (i % 40 < 20) mask[i] = 0;
@@ -326,7 +327,7 @@ TEST(RasterSource, MasksAndAlphaHideSamples) {
 
 TEST(RasterSource, ScaleOffsetAndFeetBecomeMetres) {
     const TemporaryFolder folder;
-    const Grid grid = gridAround(4326, 10, 45, 40, 40, 0.01);
+    const SampleGrid grid = gridAround(4326, 10, 45, 40, 40, 0.01);
     writeRaster(folder / "scaled.tif", grid, std::vector<float>(1600, 500),
                 {.type = GDT_Int16, .scale = 0.1, .offset = 20, .unit = "ft"});
     const HeightSource source = mustOpen(folder / "scaled.tif");
@@ -339,7 +340,7 @@ TEST(RasterSource, ScaleOffsetAndFeetBecomeMetres) {
 
 TEST(RasterSource, LongitudesFrom0To360AreTheSamePlaces) {
     const TemporaryFolder folder;
-    Grid grid = gridAround(4326, -70, -32, 60, 60, 0.01);
+    SampleGrid grid = gridAround(4326, -70, -32, 60, 60, 0.01);
     const auto surface = terrainAround(-70, -32);
     const std::vector<float> samples = samplesOf(grid, surface);
     writeRaster(folder / "west.tif", grid, samples);
@@ -359,12 +360,12 @@ TEST(RasterSource, DateLineHasNoStep) {
     const TemporaryFolder folder;
     const auto surface = terrainAround(180, -17);
     // One raster goes across, and two meet there.
-    const Grid grid = gridAround(4326, 180, -17, 200, 100, 0.005);
+    const SampleGrid grid = gridAround(4326, 180, -17, 200, 100, 0.005);
     const std::vector<float> samples = samplesOf(grid, surface);
     writeRaster(folder / "across.tif", grid, samples);
     writeRaster(folder / "tile1.tif", partOf(grid, 0, 0, 100, 100),
                 samplesOfPart(grid, samples, 0, 0, 100, 100));
-    Grid beyond = partOf(grid, 100, 0, 100, 100);
+    SampleGrid beyond = partOf(grid, 100, 0, 100, 100);
     beyond.x -= 360;
     writeRaster(folder / "tile2.tif", beyond, samplesOfPart(grid, samples, 100, 0, 100, 100));
     const HeightSource across = mustOpen(folder / "across.tif");
@@ -419,7 +420,7 @@ TEST(RasterSource, TilesOfAGridHaveTheBitsOfItsFace) {
 
 TEST(RasterSource, EveryFormatGivesTheSameHeights) {
     const TemporaryFolder folder;
-    const Grid grid = {4326, 121, 121, 10, 46, 1.0 / 120};
+    const SampleGrid grid = {4326, 121, 121, 10, 46, 1.0 / 120};
     const auto surface = [](double longitude, double latitude) {
         return std::round(900 + 700 * std::sin(longitude * 3) * std::cos(latitude * 2));
     };
@@ -444,7 +445,7 @@ TEST(RasterSource, EveryFormatGivesTheSameHeights) {
                 << format.name;
     }
     // These two formats prescribe the size and the place of a tile.
-    const Grid degree = {4326, 1201, 1201, 10, 46, 1.0 / 1200};
+    const SampleGrid degree = {4326, 1201, 1201, 10, 46, 1.0 / 1200};
     writeRaster(folder / "N45E010.hgt", degree, surface, {.format = "SRTMHGT", .type = GDT_Int16});
     writeRaster(folder / "grid.dt1", degree, surface, {.format = "DTED", .type = GDT_Int16});
     for (const char* const name : {"N45E010.hgt", "grid.dt1"}) {
@@ -516,7 +517,7 @@ TEST(RasterSource, HeightsOfRealTilesAreThoseThatGdalReads) {
 
 TEST(RasterSource, FilesThatCannotBePlacedAreRefused) {
     const TemporaryFolder folder;
-    const Grid grid = gridAround(32632, 10, 45, 40, 40, 100);
+    const SampleGrid grid = gridAround(32632, 10, 45, 40, 40, 100);
     const auto flat = [](double, double) { return 5; };
     writeRaster(folder / "nocrs.tif", grid, flat, {.hasCrs = false});
     EXPECT_THAT(errorOf(folder / "nocrs.tif"),
@@ -557,7 +558,7 @@ TEST(RasterSource, TruncatedPicturesAreStillNoticedOnceGdalIsInUse) {
 
 TEST(RasterSource, FilesOfAPatternAreFoundInOrder) {
     const TemporaryFolder folder;
-    const Grid grid = gridAround(4326, 10, 45, 20, 20, 0.01);
+    const SampleGrid grid = gridAround(4326, 10, 45, 20, 20, 0.01);
     for (const char* const name : {"b2.tif", "a1.tif", "c.txt"}) writeBytes(folder / name, "x");
     writeRaster(folder / "b1.tif", grid, [](double, double) { return 1; });
     const HeightSourceFiles files = heightSourceFiles(folder / "*.tif");

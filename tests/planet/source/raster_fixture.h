@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace planet::tests {
+namespace planet::test {
 
 // A reference system and what leads from its coordinates to degrees of longitude and latitude of WGS 84.
 class Crs {
@@ -51,7 +51,7 @@ private:
 };
 
 // A grid of samples in a reference system. x and y are the coordinates of the middle of the first sample.
-struct Grid {
+struct SampleGrid {
     int epsg = 4326;
     int width = 0;
     int height = 0;
@@ -61,8 +61,8 @@ struct Grid {
 };
 
 // Returns the grid whose middle lies at a place.
-inline Grid gridAround(int epsg, double longitudeDeg, double latitudeDeg, int width, int height,
-                       double step) {
+inline SampleGrid gridAround(int epsg, double longitudeDeg, double latitudeDeg, int width, int height,
+                             double step) {
     double x = longitudeDeg;
     double y = latitudeDeg;
     Crs(epsg).fromDegrees(x, y);
@@ -86,7 +86,7 @@ struct RasterFile {
 using Heights = std::function<double(double longitudeDeg, double latitudeDeg)>;
 
 // Returns the samples of a grid, row-major.
-inline std::vector<float> samplesOf(const Grid& grid, const Heights& height) {
+inline std::vector<float> samplesOf(const SampleGrid& grid, const Heights& height) {
     const Crs crs(grid.epsg);
     std::vector<float> samples;
     for (int row = 0; row < grid.height; ++row) {
@@ -104,7 +104,7 @@ inline void require(bool done) {
     if (!done) throw std::runtime_error(CPLGetLastErrorMsg());
 }
 
-inline void writeRaster(const std::filesystem::path& path, const Grid& grid, std::vector<float> samples,
+inline void writeRaster(const std::filesystem::path& path, const SampleGrid& grid, std::vector<float> samples,
                         const RasterFile& file = {}) {
     GDALAllRegister();
     const GDALDriverH memory = GDALGetDriverByName("MEM");
@@ -140,9 +140,9 @@ inline void writeRaster(const std::filesystem::path& path, const Grid& grid, std
     GDALClose(dataSet);
 }
 
-inline void writeRaster(const std::filesystem::path& path, const Grid& grid, const Heights& height,
+inline void writeRaster(const std::filesystem::path& path, const SampleGrid& grid, const Heights& height,
                         const RasterFile& file = {}) {
     writeRaster(path, grid, samplesOf(grid, height), file);
 }
 
-}  // namespace planet::tests
+}  // namespace planet::test
