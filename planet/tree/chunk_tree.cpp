@@ -80,8 +80,10 @@ void setMeasures(const ChunkTree& tree, ChunkNode& node) {
     // Exaggeration leaves no error at a leaf, whose own samples are the finest.
     if (tree.exaggeration == 1 || !node.children.exists()) return;
     const double bent = std::abs(tree.exaggeration - 1) * curvatureErrorsM(shape, node.id.level);
-    node.deltaCM = roundedUp(tree.exaggeration * node.storedDeltaCM + bent);
-    const float tightM = roundedUp(tree.exaggeration * node.storedDeltaTightM + bent);
+    // A hostile file may have the largest of floats.
+    constexpr double largestM = std::numeric_limits<float>::max();
+    node.deltaCM = roundedUp(std::min(tree.exaggeration * node.storedDeltaCM + bent, largestM));
+    const float tightM = roundedUp(std::min(tree.exaggeration * node.storedDeltaTightM + bent, largestM));
     node.deltaTightM = std::min(tightM, node.deltaCM);
 }
 

@@ -93,7 +93,7 @@ void chunkFiles(const fs::path& folder) {
     baked("two_levels_of_colours.chk", 17, ColourFormat::Bc1, 513);
     // Flat and of large chunks, so that it is small although a sparse planet has faces of at least 513
     // samples.
-    const auto flat = test::formulaSource([](const glm::dvec3&) { return 0.0; }, 0, 1, 1, 1025);
+    const auto flat = test::formulaSource([](const glm::dvec3&) { return -1000.0; }, -1000, 0, 1, 1025);
     must(bake(test::sparse(flat, {test::boxAround({-1, 1, 1}, 0.01, 1024)}), {.chunkSize = 129},
               folder / "sparse.chk"));
     Bytes old = read(folder / "heights.chk");

@@ -412,5 +412,16 @@ TEST(ChunkTree, CurvatureErrorBoundsTheBareSphere) {
     }
 }
 
+TEST(ChunkTree, exaggeratedErrorsOfAHostileFileStayFinite) {
+    std::array<ChunkData, faceCount> roots = fakePyramid().roots();
+    roots[0].deltaCM = roots[0].deltaTightM = std::numeric_limits<float>::max();
+    ChunkTree tree =
+        makeChunkTree(fakePyramid().shape, fakePyramid().minStep, fakePyramid().maxStep, std::move(roots))
+            .value();
+    setExaggeration(tree, 2);
+    EXPECT_TRUE(std::isfinite(tree.nodes[0].deltaCM));
+    EXPECT_TRUE(std::isfinite(tree.nodes[0].deltaTightM));
+}
+
 }  // namespace
 }  // namespace planet
