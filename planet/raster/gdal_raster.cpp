@@ -294,8 +294,8 @@ bool isGdalRaster(const std::filesystem::path& path) {
     return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, formats.data(), nullptr) != nullptr;
 }
 
-Result<std::shared_ptr<const GdalRaster>> GdalRaster::open(const std::filesystem::path& path,
-                                                           const HeightSourceSettings& settings) {
+Result<std::shared_ptr<const Raster>> GdalRaster::open(const std::filesystem::path& path,
+                                                       const HeightSourceSettings& settings) {
     std::error_code problem;
     if (!std::filesystem::exists(path, problem))
         return ioError(fmt::format("{}: no such file", path.string()));

@@ -90,7 +90,7 @@ bool onOneGrid(const RasterLayout& grid, const RasterLayout& raster) {
                                });
 }
 
-using RasterPtr = std::shared_ptr<const GdalRaster>;
+using RasterPtr = std::shared_ptr<const Raster>;
 
 // Returns the rasters of each grid, in the order of their first ones.
 std::vector<std::vector<RasterPtr>> sortedByGrid(const std::vector<RasterPtr>& rasters) {
@@ -109,7 +109,7 @@ std::vector<std::vector<RasterPtr>> sortedByGrid(const std::vector<RasterPtr>& r
 
 // Returns the raster from whose first sample the grid is counted: the topmost one, and of those the leftmost. It does
 // not depend on their order, so that positions on the grid are rounded alike in any order.
-const GdalRaster& firstOnGrid(const std::vector<RasterPtr>& rasters) {
+const Raster& firstOnGrid(const std::vector<RasterPtr>& rasters) {
     return **std::ranges::min_element(rasters, {}, [&](const RasterPtr& raster) {
         const auto [column, row] = positionOn(rasters[0]->layout(), raster->layout(), 0, 0);
         return std::pair(std::llround(row), std::llround(column));
@@ -118,7 +118,7 @@ const GdalRaster& firstOnGrid(const std::vector<RasterPtr>& rasters) {
 
 }  // namespace
 
-RasterMosaic::RasterMosaic(const GdalRaster& first, RasterPlacement placement,
+RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement,
                            std::shared_ptr<HeightBlockCache> cache, int number)
     : placement_(std::move(placement)), layout_(first.layout()), cache_(std::move(cache)), number_(number) {
     const double around = placement_.columnsAround();
@@ -129,7 +129,7 @@ Result<std::vector<RasterMosaic>> RasterMosaic::join(const std::vector<RasterPtr
                                                      const std::shared_ptr<HeightBlockCache>& cache) {
     std::vector<RasterMosaic> mosaics;
     for (const std::vector<RasterPtr>& grid : sortedByGrid(rasters)) {
-        const GdalRaster& first = firstOnGrid(grid);
+        const Raster& first = firstOnGrid(grid);
         const RasterLayout& layout = first.layout();
         TRY_ASSIGN(auto placement,
                    RasterPlacement::make(first.path().string(), {layout.x, layout.y, layout.crs}));
@@ -166,7 +166,7 @@ void RasterMosaic::sortIntoBands() {
 Result<void> RasterMosaic::readTile(std::size_t tile, const GridRect& rect, const GridRect& target,
                                     std::span<float> out) const {
     const GridRect wanted = sharedBy(rect, target);
-    const GdalRaster& raster = *tiles_[tile].raster;
+    const Raster& raster = *tiles_[tile].raster;
     const std::int64_t width = raster.layout().blockWidth;
     const std::int64_t height = raster.layout().blockHeight;
     const std::uint64_t key = (static_cast<std::uint64_t>(number_) << 32) | tile;

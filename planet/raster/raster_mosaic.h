@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "planet/base/result.h"
-#include "planet/raster/gdal_raster.h"
 #include "planet/raster/height_raster.h"
+#include "planet/raster/raster.h"
 #include "planet/raster/raster_placement.h"
 
 namespace planet {
@@ -37,15 +37,14 @@ struct GridReduction {
 class RasterMosaic {
 public:
     struct Tile {
-        std::shared_ptr<const GdalRaster> raster;
+        std::shared_ptr<const Raster> raster;
         GridRect rect;
     };
 
     // Returns the fewest mosaics that hold all rasters, each on the grid of its first raster. The rasters keep
     // their order in a mosaic. At most 2^20 rasters.
-    static Result<std::vector<RasterMosaic>> join(
-        const std::vector<std::shared_ptr<const GdalRaster>>& rasters,
-        const std::shared_ptr<HeightBlockCache>& cache);
+    static Result<std::vector<RasterMosaic>> join(const std::vector<std::shared_ptr<const Raster>>& rasters,
+                                                  const std::shared_ptr<HeightBlockCache>& cache);
 
     const std::vector<Tile>& tiles() const { return tiles_; }
     const RasterPlacement& placement() const { return placement_; }
@@ -62,9 +61,9 @@ public:
     void markTiles(const GridRect& rect, std::span<float> out) const;
 
 private:
-    RasterMosaic(const GdalRaster& first, RasterPlacement placement, std::shared_ptr<HeightBlockCache> cache,
+    RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<HeightBlockCache> cache,
                  int number);
-    void add(const std::shared_ptr<const GdalRaster>& raster);
+    void add(const std::shared_ptr<const Raster>& raster);
     void sortIntoBands();
     Result<void> readTile(std::size_t tile, const GridRect& rect, const GridRect& target,
                           std::span<float> out) const;

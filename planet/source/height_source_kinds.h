@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
 // The areas of rasters, those with the most samples in a radian first.
 Result<std::vector<RasterArea>> openRasterAreas(const std::vector<std::filesystem::path>& files,
                                                 const HeightSourceSettings& settings);
+Result<std::vector<RasterArea>> surveyRasters(const std::vector<std::shared_ptr<const Raster>>& rasters,
+                                              const HeightSourceSettings& settings);
 
 // Returns whether a path names an image of the whole planet or six cube faces.
 bool coversPlanet(const std::filesystem::path& path);

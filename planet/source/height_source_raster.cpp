@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/raster/gdal_raster.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/raster_sampling.h"
 #include "planet/source/sample_tiles.h"
@@ -60,11 +61,16 @@ std::string describe(const std::filesystem::path& path, const std::vector<Raster
 
 Result<std::vector<RasterArea>> openRasterAreas(const std::vector<std::filesystem::path>& files,
                                                 const HeightSourceSettings& settings) {
-    std::vector<std::shared_ptr<const GdalRaster>> rasters;
+    std::vector<std::shared_ptr<const Raster>> rasters;
     for (const std::filesystem::path& file : files) {
         TRY_ASSIGN(auto raster, GdalRaster::open(file, settings));
         rasters.push_back(std::move(raster));
     }
+    return surveyRasters(rasters, settings);
+}
+
+Result<std::vector<RasterArea>> surveyRasters(const std::vector<std::shared_ptr<const Raster>>& rasters,
+                                              const HeightSourceSettings& settings) {
     const auto cache = std::make_shared<HeightBlockCache>(settings.cacheBytes);
     TRY_ASSIGN(auto mosaics, RasterMosaic::join(rasters, cache));
     std::vector<RasterArea> areas;

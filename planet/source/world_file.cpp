@@ -82,6 +82,40 @@ Result<void> readJoin(const std::filesystem::path& file, const toml::node& node,
     return {};
 }
 
+// A number of a place, and how to read it.
+struct PlaceKey {
+    std::string_view name;
+    double ImagePlace::*value;
+    NumberRange range;
+    bool isNeeded;
+};
+constexpr std::array<PlaceKey, 4> placeKeys = {
+    {{"lat", &ImagePlace::latitudeDeg, {-90, 90, "°"}, true},
+     {"lon", &ImagePlace::longitudeDeg, {-360, 360, "°"}, true},
+     {"width_m", &ImagePlace::widthM, {1e-3, 1e9, "m"}, true},
+     {"heading", &ImagePlace::headingDeg, {-360, 360, "°"}, false}}};
+
+Result<void> readPlace(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer) {
+    const toml::table* const table = node.as_table();
+    const auto wrong = [&](const std::string& what) {
+        return badInput(fmt::format(
+            "{}: {}; expected place = {{lat = 46.5, lon = 8.0, width_m = 8192}}, perhaps with heading = 30",
+            placeOf(file, node), what));
+    };
+    if (!table) return wrong(fmt::format("place is {}", shownValue(node)));
+    ImagePlace& place = layer.place.emplace();
+    for (const auto& [key, value] : *table) {
+        const auto known = std::ranges::find(placeKeys, key.str(), &PlaceKey::name);
+        if (known == placeKeys.end()) return wrong(fmt::format("{} is no key of a place", key.str()));
+        TRY_ASSIGN(place.*known->value, readNumber(file, known->name, value, known->range));
+    }
+    for (const PlaceKey& key : placeKeys) {
+        if (key.isNeeded && !table->contains(key.name))
+            return wrong(fmt::format("place has no {}", key.name));
+    }
+    return {};
+}
+
 constexpr std::array layerKeys = {
     LayerKey{"name",
              [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
@@ -113,12 +147,44 @@ constexpr std::array layerKeys = {
                  TRY_ASSIGN(layer.offsetM, readNumber(file, "offset_m", node, {-1e6, 1e6, "m"}));
                  return {};
              }},
+    LayerKey{"place", readPlace},
+    LayerKey{"raw_size",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(const auto size, readInteger(file, "raw_size", node, {2, 1 << 22, "samples"}));
+                 layer.rawSize = static_cast<int>(size);
+                 return {};
+             }},
+    LayerKey{"raw_big_endian",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.rawBigEndian, readBool(file, "raw_big_endian", node));
+                 return {};
+             }},
+    LayerKey{"raw_signed",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.rawSigned, readBool(file, "raw_signed", node));
+                 return {};
+             }},
 };
 
 std::string knownKeys() {
     std::string names;
     for (const LayerKey& key : layerKeys) names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
     return names;
+}
+
+Result<void> checkPlace(const std::string& place, const WorldLayer& layer) {
+    const bool saysRaw = layer.rawSize || layer.rawBigEndian || layer.rawSigned;
+    if (layer.place && (layer.files.size() != 1 || isFilePattern(layer.files[0]))) {
+        return badInput(fmt::format(
+            "{}: place is for one image; expected files with one path, and a layer for each image", place));
+    }
+    if (saysRaw && (!layer.place || !isRawImage(layer.files[0]))) {
+        return badInput(
+            fmt::format("{}: raw_size, raw_big_endian and raw_signed describe a headerless file; expected a "
+                        "layer with place and one .raw or .r16 file",
+                        place));
+    }
+    return {};
 }
 
 // Checks what one key alone cannot say.
@@ -147,7 +213,7 @@ Result<void> checkLayer(const std::string& place, const WorldLayer& layer, bool 
             "offset_m",
             place));
     }
-    return {};
+    return checkPlace(place, layer);
 }
 
 Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node& node, bool isFirst) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planet/base/result.h"
+#include "planet/raster/placed_image.h"
 #include "planet/sphere/planet_shape.h"
 
 namespace planet {
@@ -39,6 +40,10 @@ struct WorldLayer {
     double featherM = 0;  // the width of the blend inwards from the rim of its coverage, [0, 1e6]
     double scale = 1;     // height = offsetM + scale * the height that the files say; magnitude (0, 1e6]
     double offsetM = 0;   // magnitude at most 1e6
+    std::optional<ImagePlace> place;  // of the one file, which has no position of its own
+    std::optional<int> rawSize;       // only with place: of a raw file, samples per side
+    bool rawBigEndian = false;
+    bool rawSigned = false;
 };
 
 struct WorldFile {

@@ -165,6 +165,7 @@ public:
         if (!layer.detail.empty()) return addDetail(layer);
         if (!layer.terrain.empty()) return addWhole(layer, layer.terrain);
         TRY_ASSIGN(const auto files, filesOfLayer(layer));
+        if (layer.place) return addPlaced(layer, files[0]);
         // An image of the whole planet or six faces; anything else is georeferenced.
         if (layer.files.size() == 1 && files == layer.files && coversPlanet(files[0]))
             return addWhole(layer, files[0]);
@@ -222,6 +223,22 @@ private:
 
     Result<void> addRasters(const WorldLayer& layer, const std::vector<std::filesystem::path>& files) {
         TRY_ASSIGN(auto areas, openRasterAreas(files, settings_));
+        addAreas(layer, std::move(areas));
+        return {};
+    }
+
+    Result<void> addPlaced(const WorldLayer& layer, const std::filesystem::path& file) {
+        HeightSourceSettings settings = settings_;
+        settings.rawSize = layer.rawSize;
+        settings.rawBigEndian = layer.rawBigEndian;
+        settings.rawSigned = layer.rawSigned;
+        TRY_ASSIGN(auto image, openPlacedImage(file, *layer.place, radiusM_, settings));
+        TRY_ASSIGN(auto areas, surveyRasters({std::move(image)}, settings));
+        addAreas(layer, std::move(areas));
+        return {};
+    }
+
+    void addAreas(const WorldLayer& layer, std::vector<RasterArea> areas) {
         // Of rasters on different grids, the finest lies on top.
         std::ranges::reverse(areas);
         for (RasterArea& area : areas) {
@@ -234,7 +251,6 @@ private:
             }
             world_->parts.push_back({layer, std::move(part)});
         }
-        return {};
     }
 
     // Makes the layers so far a source of its own, and refines it.

@@ -1,0 +1,51 @@
+// A raster of heights on a grid of its own: what a mosaic joins. Internal to the library.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planet/base/result.h"
+#include "planet/raster/height_raster.h"
+
+namespace planet {
+
+struct RasterLayout {
+    int width = 0;  // samples, [1, 2^22]
+    int height = 0;
+    int blockWidth = 0;  // samples that are decoded together; the last blocks of a row or column are cut off
+    int blockHeight = 0;
+    // Maps a sample's (column, row) to the coordinates of its centre in the reference system: x = x[0] + x[1]
+    // column + x[2] row, and y likewise.
+    std::array<double, 3> x{};
+    std::array<double, 3> y{};
+    std::string crs;              // the horizontal coordinate reference system as WKT 2 or a PROJ string
+    std::string crsName;          // "WGS 84 / UTM zone 19S"
+    std::string typeName;         // "int16"
+    HeightConversion conversion;  // from floats, which hold the values of all types that heights need
+    double stepM = 0;             // of an integer raster, metres; 0 for floats
+};
+
+// An open raster. Several threads may read at once.
+class Raster {
+public:
+    virtual ~Raster() = default;
+    Raster(const Raster&) = delete;
+    Raster& operator=(const Raster&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    const RasterLayout& layout() const { return layout_; }
+
+    // Reads a block as heights in metres, row-major, with NaN for missing samples. The last blocks of a row or column
+    // are narrower or lower. The Error names the file and the block.
+    virtual Result<std::vector<float>> readBlock(int blockX, int blockY) const = 0;
+
+protected:
+    Raster() = default;
+
+    std::filesystem::path path_;
+    RasterLayout layout_;
+};
+
+}  // namespace planet
