@@ -1,7 +1,6 @@
 #include "planet/raster/raster_placement.h"
 
 #include <fmt/format.h>
-#include <proj.h>
 
 #include <algorithm>
 #include <cassert>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/raster/proj_objects.h"
 
 namespace planet {
 
@@ -23,47 +23,29 @@ constexpr double radPerDeg = std::numbers::pi / 180;
 // A reference system whose degrees differ by less from those of WGS 84, about 0.1 mm, needs no transformation.
 constexpr double sameDeg = 1e-9;
 
-struct ContextDestroyer {
-    void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-};
-struct PjDestroyer {
-    void operator()(PJ* pj) const { proj_destroy(pj); }
-};
-using ContextPtr = std::unique_ptr<PJ_CONTEXT, ContextDestroyer>;
-using PjPtr = std::unique_ptr<PJ, PjDestroyer>;
-
-void ignoreMessage(void*, int, const char*) {}
-
-ContextPtr makeContext() {
-    ContextPtr context(proj_context_create());
-    proj_log_func(context.get(), nullptr, ignoreMessage);
-    proj_context_set_enable_network(context.get(), 0);
-    return context;
-}
-
 // The transformation from degrees of longitude and latitude, for the use of one thread at a time.
 struct Transformation {
-    ContextPtr context;  // destroyed last
-    PjPtr forward;
+    ProjContextPtr context;  // destroyed last
+    ProjPtr forward;
 };
 
 // Returns a transformation between two reference systems with longitude before latitude and easting before
 // northing; null if there is none.
-PjPtr between(PJ_CONTEXT* context, const PJ* from, const PJ* to) {
-    const PjPtr plain(proj_create_crs_to_crs_from_pj(context, from, to, nullptr, nullptr));
-    return PjPtr(plain ? proj_normalize_for_visualization(context, plain.get()) : nullptr);
+ProjPtr between(PJ_CONTEXT* context, const PJ* from, const PJ* to) {
+    const ProjPtr plain(proj_create_crs_to_crs_from_pj(context, from, to, nullptr, nullptr));
+    return ProjPtr(plain ? proj_normalize_for_visualization(context, plain.get()) : nullptr);
 }
 
 std::optional<Transformation> makeTransformation(const std::string& crs) {
-    Transformation made{makeContext(), nullptr};
+    Transformation made{makeProjContext(), nullptr};
     PJ_CONTEXT* const context = made.context.get();
-    const PjPtr target(proj_create(context, crs.c_str()));
-    const PjPtr wgs84(proj_create(context, "EPSG:4326"));
+    const ProjPtr target(proj_create(context, crs.c_str()));
+    const ProjPtr wgs84(proj_create(context, "EPSG:4326"));
     if (!target || !wgs84) return std::nullopt;
     made.forward = between(context, wgs84.get(), target.get());
     if (!made.forward) {
         // PROJ refuses to go from the Earth to another body, whose own latitude and longitude are meant then.
-        const PjPtr own(proj_crs_get_geodetic_crs(context, target.get()));
+        const ProjPtr own(proj_crs_get_geodetic_crs(context, target.get()));
         if (own) made.forward = between(context, own.get(), target.get());
     }
     if (!made.forward) return std::nullopt;
@@ -73,12 +55,12 @@ std::optional<Transformation> makeTransformation(const std::string& crs) {
 // Returns the units of longitude in a full turn if the reference system is one of longitude and latitude;
 // otherwise 0.
 double unitsAround(const std::string& crs) {
-    const ContextPtr context = makeContext();
-    const PjPtr system(proj_create(context.get(), crs.c_str()));
+    const ProjContextPtr context = makeProjContext();
+    const ProjPtr system(proj_create(context.get(), crs.c_str()));
     if (!system) return 0;
     const PJ_TYPE type = proj_get_type(system.get());
     if (type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS) return 0;
-    const PjPtr axes(proj_crs_get_coordinate_system(context.get(), system.get()));
+    const ProjPtr axes(proj_crs_get_coordinate_system(context.get(), system.get()));
     double unitRad = 0;
     const bool known = axes && proj_cs_get_axis_info(context.get(), axes.get(), 0, nullptr, nullptr, nullptr,
                                                      &unitRad, nullptr, nullptr, nullptr) != 0;

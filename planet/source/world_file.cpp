@@ -82,6 +82,14 @@ Result<void> readJoin(const std::filesystem::path& file, const toml::node& node,
     return {};
 }
 
+Result<VerticalDatum> readDatum(const std::filesystem::path& file, const toml::node& node) {
+    const auto* const text = node.as_string();
+    const std::optional<VerticalDatum> datum = text ? verticalDatumNamed(text->get()) : std::nullopt;
+    if (datum) return *datum;
+    return badInput(fmt::format("{}: datum is {}; expected \"ellipsoid\", \"egm96\" or \"egm2008\"",
+                                placeOf(file, node), shownValue(node)));
+}
+
 // A number of a place, and how to read it.
 struct PlaceKey {
     std::string_view name;
@@ -145,6 +153,12 @@ constexpr std::array layerKeys = {
     LayerKey{"offset_m",
              [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
                  TRY_ASSIGN(layer.offsetM, readNumber(file, "offset_m", node, {-1e6, 1e6, "m"}));
+                 layer.hasOffset = true;
+                 return {};
+             }},
+    LayerKey{"datum",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.datum, readDatum(file, node));
                  return {};
              }},
     LayerKey{"place", readPlace},
@@ -183,6 +197,31 @@ Result<void> checkPlace(const std::string& place, const WorldLayer& layer) {
             fmt::format("{}: raw_size, raw_big_endian and raw_signed describe a headerless file; expected a "
                         "layer with place and one .raw or .r16 file",
                         place));
+    }
+    return {};
+}
+
+// Layers whose heights stand on their own have a datum if the planet has one. Terrain, detail and heights that are added
+// have none.
+Result<void> checkDatum(const std::string& place, const WorldLayer& layer,
+                        const std::optional<VerticalDatum>& planet) {
+    const bool mayHaveOne = !layer.files.empty() && layer.join != LayerJoin::Add;
+    if (layer.datum && !mayHaveOne) {
+        return badInput(fmt::format(
+            "{}: terrain, detail and heights that are added have no datum; expected a layer without datum",
+            place));
+    }
+    if (layer.datum && !planet) {
+        return badInput(fmt::format(
+            "{}: the layer's datum is {}, but the world file does not say what the planet's heights are "
+            "measured from; expected datum at its top too",
+            place, nameOf(*layer.datum)));
+    }
+    if (planet && !layer.datum && mayHaveOne) {
+        return badInput(fmt::format(
+            "{}: the planet's datum is {}, but the layer does not say what its heights are measured from; "
+            "expected datum in the layer too",
+            place, nameOf(*planet)));
     }
     return {};
 }
@@ -247,11 +286,13 @@ Result<WorldFile> readWorldFile(const std::filesystem::path& path) {
     for (const auto& [key, value] : table) {
         if (key.str() == "fill_m") {
             TRY_ASSIGN(world.fillM, readNumber(path, "fill_m", value, {-1e6, 1e6, "m"}));
+        } else if (key.str() == "datum") {
+            TRY_ASSIGN(world.datum, readDatum(path, value));
         } else if (key.str() == "radius_m") {
             TRY_ASSIGN(world.radiusM, readNumber(path, "radius_m", value, {1, 1e9, "m"}));
         } else if (key.str() != "elevation") {
             return badInput(fmt::format(
-                "{}: {} is no key of a world file; expected radius_m, fill_m and tables [[elevation]]",
+                "{}: {} is no key of a world file; expected radius_m, fill_m, datum and tables [[elevation]]",
                 placeOf(path, value), key.str()));
         }
     }
@@ -262,6 +303,7 @@ Result<WorldFile> readWorldFile(const std::filesystem::path& path) {
     }
     for (const toml::node& node : *layers) {
         TRY_ASSIGN(auto layer, readLayer(path, node, world.layers.empty()));
+        TRY(checkDatum(placeOf(path, node), layer, world.datum));
         world.layers.push_back(std::move(layer));
     }
     return world;

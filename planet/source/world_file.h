@@ -10,6 +10,7 @@
 
 #include "planet/base/result.h"
 #include "planet/raster/placed_image.h"
+#include "planet/raster/vertical_datum.h"
 #include "planet/sphere/planet_shape.h"
 
 namespace planet {
@@ -36,10 +37,13 @@ struct WorldLayer {
     std::string detail;   // instead of files: "strength=0.8", detail below what lies under it
     LayerJoin join = LayerJoin::Replace;
     LayerVoids voids = LayerVoids::Below;
-    double voidM = 0;     // metres, before scale and offsetM; magnitude at most 1e6
-    double featherM = 0;  // the width of the blend inwards from the rim of its coverage, [0, 1e6]
-    double scale = 1;     // height = offsetM + scale * the height that the files say; magnitude (0, 1e6]
-    double offsetM = 0;   // magnitude at most 1e6
+    double voidM = 0;        // metres, before scale and offsetM; magnitude at most 1e6
+    double featherM = 0;     // the width of the blend inwards from the rim of its coverage, [0, 1e6]
+    double scale = 1;        // height = offsetM + scale * the height that the files say; magnitude (0, 1e6]
+    double offsetM = 0;      // magnitude at most 1e6
+    bool hasOffset = false;  // the file gives offsetM
+    // What the heights of the files are measured from, if the world file says what the planet's are measured from.
+    std::optional<VerticalDatum> datum;
     std::optional<ImagePlace> place;  // of the one file, which has no position of its own
     std::optional<int> rawSize;       // only with place: of a raw file, samples per side
     bool rawBigEndian = false;
@@ -47,9 +51,10 @@ struct WorldLayer {
 };
 
 struct WorldFile {
-    std::vector<WorldLayer> layers;  // at least one; the first lies at the bottom
-    double radiusM = earthRadiusM;   // of the planet, for widths in metres; [1, 1e9]
-    double fillM = 0;                // the height where no layer has one, metres; magnitude at most 1e6
+    std::vector<WorldLayer> layers;      // at least one; the first lies at the bottom
+    double radiusM = earthRadiusM;       // of the planet, for widths in metres; [1, 1e9]
+    double fillM = 0;                    // the height where no layer has one, metres; magnitude at most 1e6
+    std::optional<VerticalDatum> datum;  // what the planet's heights are measured from
 };
 
 // Reads a world file. The Error names the file, the line, the key and the expected value.

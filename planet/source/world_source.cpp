@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -27,6 +28,7 @@ namespace {
 
 constexpr std::size_t leastCacheBytes = 8u << 20;  // of a layer
 constexpr int worldPieceSide = 65;                 // samples per side of a piece of a tile
+constexpr double degPerRad = 180 / std::numbers::pi;
 
 // Rasters on one grid, with the distance from their rim if it is needed.
 struct RasterPart {
@@ -37,6 +39,7 @@ struct RasterPart {
 // One step of a world: what joins the heights that were made so far.
 struct WorldPart {
     WorldLayer layer;
+    std::optional<DatumShift> shift;  // of the layer's heights to the planet's datum
     std::variant<std::unique_ptr<RasterPart>, HeightSource> content;
 };
 
@@ -47,9 +50,9 @@ struct World {
     double maxM = 0;
 };
 
-float joined(const WorldLayer& layer, float belowM, float heightM, double weight) {
+float joined(const WorldLayer& layer, float belowM, float heightM, double shiftM, double weight) {
     const double below = static_cast<double>(belowM);
-    const double height = layer.offsetM + layer.scale * static_cast<double>(heightM);
+    const double height = layer.offsetM + layer.scale * static_cast<double>(heightM) + shiftM;
     switch (layer.join) {
         case LayerJoin::Replace:
             return static_cast<float>(below + weight * (height - below));
@@ -72,30 +75,58 @@ Result<void> treatVoids(const WorldLayer& layer, const RasterArea& area, const P
     return {};
 }
 
-Result<void> joinRasters(const WorldLayer& layer, const RasterPart& part, const PiecePlaces& places,
-                         std::span<float> worldM) {
-    const PlacesOnGrid onGrid = placesOnGrid(part.area, places);
-    if (onGrid.index.empty()) return {};
-    std::vector<float> heights(worldM.size(), std::numeric_limits<float>::quiet_NaN());
-    TRY(fillFrom(part.area, places, onGrid, heights));
-    TRY(treatVoids(layer, part.area, onGrid, heights));
-    std::vector<double> distances(onGrid.index.size());
-    if (part.rim) TRY(part.rim->at(onGrid.column, onGrid.row, distances));
-    for (std::size_t k = 0; k < onGrid.index.size(); ++k) {
-        const std::size_t i = onGrid.index[k];
+// Returns the shift of each place from the datum of a layer to that of the planet; empty if there is none.
+std::vector<double> shiftsAt(const WorldPart& part, const PiecePlaces& places) {
+    if (!part.shift) return {};
+    std::vector<double> shifts(places.longitudeRad.size());
+    part.shift->at(places.longitudeRad, places.latitudeRad, shifts);
+    return shifts;
+}
+
+// Joins the heights of a layer, of which those that are NaN leave what lies under them. weight(i) is the share of the
+// height at place i.
+template <class Weight>
+Result<void> joinHeights(const WorldPart& part, const PiecePlaces& places, std::span<const float> heights,
+                         std::span<float> worldM, const Weight& weight) {
+    const std::vector<double> shifts = shiftsAt(part, places);
+    for (std::size_t i = 0; i < heights.size(); ++i) {
         if (std::isnan(heights[i])) continue;
-        const double weight = part.rim ? smoothly(0, part.rim->reachRad(), distances[k]) : 1;
-        worldM[i] = joined(layer, worldM[i], heights[i], weight);
+        const double shiftM = shifts.empty() ? 0 : shifts[i];
+        if (!std::isfinite(shiftM)) {
+            return badInput(fmt::format(
+                "layer \"{}\": PROJ's grid of its datum or of the planet's has no value at {:.4f} N, {:.4f} "
+                "E; "
+                "expected a grid of the whole planet, or offset_m in the layer instead of the grid",
+                part.layer.name, places.latitudeRad[i] * degPerRad, places.longitudeRad[i] * degPerRad));
+        }
+        worldM[i] = joined(part.layer, worldM[i], heights[i], shiftM, weight(i));
     }
     return {};
 }
 
-Result<void> joinSource(const WorldLayer& layer, const HeightSource& source, const SampleTile& piece,
-                        std::span<float> worldM) {
+Result<void> joinRasters(const WorldPart& part, const RasterPart& rasters, const PiecePlaces& places,
+                         std::span<float> worldM) {
+    const PlacesOnGrid onGrid = placesOnGrid(rasters.area, places);
+    if (onGrid.index.empty()) return {};
+    std::vector<float> heights(worldM.size(), std::numeric_limits<float>::quiet_NaN());
+    TRY(fillFrom(rasters.area, places, onGrid, heights));
+    TRY(treatVoids(part.layer, rasters.area, onGrid, heights));
+    std::vector<double> weights(rasters.rim ? worldM.size() : 0);
+    if (rasters.rim) {
+        std::vector<double> distances(onGrid.index.size());
+        TRY(rasters.rim->at(onGrid.column, onGrid.row, distances));
+        for (std::size_t k = 0; k < onGrid.index.size(); ++k)
+            weights[onGrid.index[k]] = smoothly(0, rasters.rim->reachRad(), distances[k]);
+    }
+    return joinHeights(part, places, heights, worldM,
+                       [&](std::size_t i) { return weights.empty() ? 1 : weights[i]; });
+}
+
+Result<void> joinSource(const WorldPart& part, const HeightSource& source, const SampleTile& piece,
+                        const PiecePlaces& places, std::span<float> worldM) {
     std::vector<float> heights(worldM.size());
     TRY(source.sample(piece, heights));
-    for (std::size_t i = 0; i < worldM.size(); ++i) worldM[i] = joined(layer, worldM[i], heights[i], 1);
-    return {};
+    return joinHeights(part, places, heights, worldM, [](std::size_t) { return 1.0; });
 }
 
 Result<void> samplePiece(const World& world, const SampleTile& piece, float* out, std::size_t stride) {
@@ -103,10 +134,9 @@ Result<void> samplePiece(const World& world, const SampleTile& piece, float* out
     std::vector<float> heights(samplesIn(piece), static_cast<float>(world.fillM));
     for (const WorldPart& part : world.parts) {
         if (const auto* const source = std::get_if<HeightSource>(&part.content)) {
-            TRY(joinSource(part.layer, *source, piece, heights));
+            TRY(joinSource(part, *source, piece, places, heights));
         } else {
-            TRY(joinRasters(part.layer, *std::get<std::unique_ptr<RasterPart>>(part.content), places,
-                            heights));
+            TRY(joinRasters(part, *std::get<std::unique_ptr<RasterPart>>(part.content), places, heights));
         }
     }
     const auto columns = static_cast<std::size_t>(piece.columns);
@@ -156,12 +186,13 @@ Extent extentOf(const HeightSource& source) {
 class WorldBuilder {
 public:
     WorldBuilder(const WorldFile& file, const HeightSourceSettings& settings)
-        : settings_(settings), radiusM_(file.radiusM), world_(std::make_unique<World>()) {
+        : settings_(settings), radiusM_(file.radiusM), datum_(file.datum), world_(std::make_unique<World>()) {
         world_->fillM = world_->minM = world_->maxM = file.fillM;
         settings_.cacheBytes = std::max(leastCacheBytes, settings.cacheBytes / file.layers.size());
     }
 
     Result<void> add(const WorldLayer& layer) {
+        TRY(setShift(layer));
         if (!layer.detail.empty()) return addDetail(layer);
         if (!layer.terrain.empty()) return addWhole(layer, layer.terrain);
         TRY_ASSIGN(const auto files, filesOfLayer(layer));
@@ -192,6 +223,15 @@ public:
     }
 
 private:
+    // offset_m takes the place of the grids, whether or not they exist: the same world file gives the same heights
+    // everywhere.
+    Result<void> setShift(const WorldLayer& layer) {
+        shift_.reset();
+        if (!layer.datum || layer.datum == datum_ || layer.hasOffset) return {};
+        TRY_ASSIGN(shift_, DatumShift::make(*layer.datum, *datum_));
+        return {};
+    }
+
     void widen(const WorldLayer& layer, const Extent& part) {
         double low = layer.offsetM + layer.scale * part.minM;
         double high = layer.offsetM + layer.scale * part.maxM;
@@ -199,6 +239,10 @@ private:
         if (layer.voids == LayerVoids::Height) {
             low = std::min(low, layer.offsetM + layer.scale * layer.voidM);
             high = std::max(high, layer.offsetM + layer.scale * layer.voidM);
+        }
+        if (shift_) {
+            low += shift_->minM();
+            high += shift_->maxM();
         }
         const bool adds = layer.join == LayerJoin::Add;
         if (layer.join != LayerJoin::Max)
@@ -217,7 +261,7 @@ private:
             world_->maxM = -world_->minM;
         }
         widen(layer, extentOf(source));
-        world_->parts.push_back({layer, std::move(source)});
+        world_->parts.push_back({layer, shift_, std::move(source)});
         return {};
     }
 
@@ -249,7 +293,7 @@ private:
                 part->rim.emplace(part->area, std::min(1.0, layer.featherM / radiusM_),
                                   showsBelow ? RimDistance::Rims::TilesAndVoids : RimDistance::Rims::Tiles);
             }
-            world_->parts.push_back({layer, std::move(part)});
+            world_->parts.push_back({layer, shift_, std::move(part)});
         }
     }
 
@@ -269,12 +313,14 @@ private:
         world_->maxM = refined.maxM;
         extent_ = {refined.minM, refined.maxM, refined.naturalFaceSize - 1, extent.sampleCount,
                    extent.missingCount};
-        world_->parts.push_back({layer, std::move(refined)});
+        world_->parts.push_back({layer, shift_, std::move(refined)});
         return {};
     }
 
     HeightSourceSettings settings_;
     double radiusM_;
+    std::optional<VerticalDatum> datum_;  // of the planet
+    std::optional<DatumShift> shift_;     // of the layer that is being added
     std::unique_ptr<World> world_;
     Extent extent_;
 };

@@ -1,0 +1,52 @@
+// Converts heights above one vertical datum to heights above another, with PROJ's grids. Internal to the library.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "planet/base/result.h"
+
+namespace planet {
+
+// What heights are measured from.
+enum class VerticalDatum : std::uint8_t {
+    Ellipsoid,  // the ellipsoid of WGS 84
+    Egm96,      // a geoid
+    Egm2008
+};
+
+// Returns the datum of a name: "ellipsoid", "egm96" or "egm2008".
+std::optional<VerticalDatum> verticalDatumNamed(std::string_view name);
+std::string_view nameOf(VerticalDatum datum);
+
+// What is added to heights above a datum to make them heights above another. A geoid lies N above the ellipsoid, so a
+// height above it is H = h - N, where h is the height above the ellipsoid, and the shift is N(from) - N(to). Copies
+// share the grids. Any thread.
+class DatumShift {
+public:
+    // Opens the grids in PROJ's folders. The Error names a missing grid, and where PROJ looks for it.
+    static Result<DatumShift> make(VerticalDatum from, VerticalDatum to);
+
+    // Computes the shifts at places, metres; not finite where a grid has no value. All spans have the same length.
+    void at(std::span<const double> longitudeRad, std::span<const double> latitudeRad,
+            std::span<double> shiftM) const;
+
+    // A range that holds all shifts.
+    double minM() const { return minM_; }
+    double maxM() const { return maxM_; }
+
+private:
+    class Transformations;
+    DatumShift() = default;
+    void findRange();
+
+    std::shared_ptr<Transformations> transformations_;
+    double minM_ = 0;
+    double maxM_ = 0;
+};
+
+}  // namespace planet
