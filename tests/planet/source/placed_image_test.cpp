@@ -165,12 +165,12 @@ TEST_F(PlacedImage, MistakesOfAPlaceAreNamed) {
 }
 
 TEST_F(PlacedImage, ImageWithItsOwnPositionIsRefused) {
-    using tests::gridAround;
+    using test::gridAround;
     const std::string place = "\nplace = {lat = 10, lon = 8, width_m = 8192}";
     const auto flat = [](double, double) { return 5; };
-    tests::writeRaster(folder / "degrees.tif", gridAround(4326, 10, 45, 40, 40, 0.1), flat);
-    tests::writeRaster(folder / "utm.tif", gridAround(32632, 10, 45, 40, 40, 100), flat);
-    tests::writeRaster(folder / "grid.asc", gridAround(32632, 10, 45, 40, 40, 100), flat,
+    test::writeRaster(folder / "degrees.tif", gridAround(4326, 10, 45, 40, 40, 0.1), flat);
+    test::writeRaster(folder / "utm.tif", gridAround(32632, 10, 45, 40, 40, 100), flat);
+    test::writeRaster(folder / "grid.asc", gridAround(32632, 10, 45, 40, 40, 100), flat,
                        {.format = "AAIGrid"});
     writeImage(folder / "beside.png", Image<std::uint16_t>(40, 40, valueAt));
     writeBytes(folder / "beside.pgw", "0.1\n0\n0\n-0.1\n10\n45\n");

@@ -50,17 +50,17 @@ protected:
     VerticalDatums() {
         setenv("PROJ_USER_WRITABLE_DIRECTORY", (folder / "grids").c_str(), 1);
         std::filesystem::create_directory(folder / "grids");
-        tests::writeRaster(folder / "plain.tif", tests::gridAround(4326, 10, 45, 201, 201, 0.01),
+        test::writeRaster(folder / "plain.tif", test::gridAround(4326, 10, 45, 201, 201, 0.01),
                            [](double, double) { return 300; });
     }
     ~VerticalDatums() override { unsetenv("PROJ_USER_WRITABLE_DIRECTORY"); }
 
-    static tests::Grid wholePlanet() { return {4326, 24, 13, -180, 90, 15}; }
+    static test::SampleGrid wholePlanet() { return {4326, 24, 13, -180, 90, 15}; }
     void plantEgm96() {
-        tests::writeRaster(folder / "grids/us_nga_egm96_15.tif", wholePlanet(), egm96At, {.isPoint = true});
+        test::writeRaster(folder / "grids/us_nga_egm96_15.tif", wholePlanet(), egm96At, {.isPoint = true});
     }
-    void plantEgm2008(const tests::Grid& grid = wholePlanet()) {
-        tests::writeRaster(folder / "grids/egm08_25.gtx", grid, egm2008At, {.format = "GTX"});
+    void plantEgm2008(const test::SampleGrid& grid = wholePlanet()) {
+        test::writeRaster(folder / "grids/egm08_25.gtx", grid, egm2008At, {.format = "GTX"});
     }
 
     std::filesystem::path write(const std::string& planet, const std::string& layer) {
