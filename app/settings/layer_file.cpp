@@ -9,10 +9,10 @@
 #include <sstream>
 #include <variant>
 
-#include "app/base/text.h"
 #include "app/base/colour_text.h"
 #include "app/base/output_file.h"
 #include "app/base/places.h"
+#include "app/base/text.h"
 #include "app/base/toml_file.h"
 
 namespace worldy {

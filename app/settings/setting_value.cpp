@@ -8,8 +8,8 @@
 #include <optional>
 #include <sstream>
 
-#include "app/base/text.h"
 #include "app/base/colour_text.h"
+#include "app/base/text.h"
 #include "app/base/toml_file.h"
 #include "app/settings/layer_file.h"
 

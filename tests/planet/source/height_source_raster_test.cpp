@@ -16,19 +16,18 @@
 namespace planet {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using test::Crs;
+using test::finest;
 using test::gridAround;
+using test::radPerDeg;
 using test::RasterFile;
 using test::SampleGrid;
 using test::samplesOf;
 using test::writeRaster;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 const std::filesystem::path regions = std::filesystem::path(WORLDY_SOURCE_DIR) / "data/regions";
-
-constexpr double radPerDeg = std::numbers::pi / 180;
-constexpr int finest = 1 << 22;
 
 // Continents, ridges and a peak at a place.
 test::Heights terrainAround(double longitudeDeg, double latitudeDeg) {

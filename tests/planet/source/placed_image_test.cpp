@@ -11,11 +11,11 @@
 namespace planet {
 namespace {
 
+using test::finest;
+using test::radPerDeg;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr int finest = 1 << 22;
-constexpr double radPerDeg = std::numbers::pi / 180;
 constexpr int side = 257;
 
 // A plane that tells columns from rows, with values of 16 bits.
@@ -171,7 +171,7 @@ TEST_F(PlacedImage, ImageWithItsOwnPositionIsRefused) {
     test::writeRaster(folder / "degrees.tif", gridAround(4326, 10, 45, 40, 40, 0.1), flat);
     test::writeRaster(folder / "utm.tif", gridAround(32632, 10, 45, 40, 40, 100), flat);
     test::writeRaster(folder / "grid.asc", gridAround(32632, 10, 45, 40, 40, 100), flat,
-                       {.format = "AAIGrid"});
+                      {.format = "AAIGrid"});
     writeImage(folder / "beside.png", Image<std::uint16_t>(40, 40, valueAt));
     writeBytes(folder / "beside.pgw", "0.1\n0\n0\n-0.1\n10\n45\n");
     for (const char* const name : {"degrees.tif", "utm.tif", "grid.asc", "beside.png"}) {

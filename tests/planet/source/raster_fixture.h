@@ -11,12 +11,16 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace planet::test {
+
+inline constexpr int finest = 1 << 22;  // cells along a face of the finest grid
+inline constexpr double radPerDeg = std::numbers::pi / 180;
 
 // A reference system and what leads from its coordinates to degrees of longitude and latitude of WGS 84.
 class Crs {

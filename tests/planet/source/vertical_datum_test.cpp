@@ -15,12 +15,11 @@
 namespace planet {
 namespace {
 
+using test::finest;
+using test::radPerDeg;
 using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
-
-constexpr int finest = 1 << 22;
-constexpr double radPerDeg = std::numbers::pi / 180;
 
 // Geoids that two planted grids hold: linear between the grids' points, which lie 15 degrees apart.
 double egm96At(double, double latitude) {
@@ -51,7 +50,7 @@ protected:
         setenv("PROJ_USER_WRITABLE_DIRECTORY", (folder / "grids").c_str(), 1);
         std::filesystem::create_directory(folder / "grids");
         test::writeRaster(folder / "plain.tif", test::gridAround(4326, 10, 45, 201, 201, 0.01),
-                           [](double, double) { return 300; });
+                          [](double, double) { return 300; });
     }
     ~VerticalDatums() override { unsetenv("PROJ_USER_WRITABLE_DIRECTORY"); }
 

@@ -11,11 +11,11 @@
 namespace planet {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using test::gridAround;
 using test::SampleGrid;
 using test::writeRaster;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 constexpr int finestCells = 1 << 22;
 
