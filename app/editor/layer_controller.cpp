@@ -7,7 +7,6 @@
 
 #include "app/base/places.h"
 #include "app/base/text.h"
-#include "app/base/toml_file.h"
 #include "app/data/write_check.h"
 #include "app/editor/overloaded.h"
 #include "app/editor/presets.h"

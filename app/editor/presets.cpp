@@ -8,7 +8,6 @@
 #include "app/base/output_file.h"
 #include "app/base/places.h"
 #include "app/base/text.h"
-#include "app/base/toml_file.h"
 #include "app/data/write_check.h"
 
 namespace worldy {

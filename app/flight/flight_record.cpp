@@ -15,7 +15,6 @@
 #include <set>
 
 #include "app/base/text.h"
-#include "app/base/toml_file.h"
 #include "app/settings/setting_value.h"
 #include "app/settings/settings_schema.h"
 #include "app/settings/settings_text.h"

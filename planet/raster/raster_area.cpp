@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "planet/base/parallel.h"
-#include "planet/base/try.h"
 #include "planet/sphere/cube_sphere.h"
 #include "planet/sphere/planet_shape.h"
 

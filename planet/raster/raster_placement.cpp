@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -12,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "planet/base/try.h"
 #include "planet/raster/proj_objects.h"
 
 namespace planet {
