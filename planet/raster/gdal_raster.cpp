@@ -2,11 +2,9 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
-#include <tiffio.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +16,10 @@
 #include <utility>
 
 #include "planet/base/try.h"
+#include "planet/raster/gdal_formats.h"
 #include "planet/raster/geo_tags.h"
 #include "planet/raster/height_raster.h"
+#include "planet/raster/vrt_file.h"
 
 namespace planet {
 
@@ -29,69 +29,11 @@ constexpr int mostRasterSide = 1 << 22;                // samples
 constexpr int leastBlockSide = 128;                    // samples; smaller blocks of a file are read together
 constexpr std::int64_t mostBlockSamples = 16LL << 20;  // a larger block could not be read in bounded memory
 constexpr std::size_t mostIdle = 64;                   // data sets
-constexpr int gdalCacheBytes = 16 << 20;               // heights are cached after conversion
-
-constexpr std::array<const char*, 15> formats = {"GTiff",  "SRTMHGT",     "DTED", "AAIGrid", "GRASSASCIIGrid",
-                                                 "netCDF", "JP2OpenJPEG", "ENVI", "EHdr",    "HFA",
-                                                 "BIL",    "USGSDEM",     "PNG",  "JPEG",    nullptr};
-
-struct DataSetCloser {
-    void operator()(GDALDatasetH dataSet) const { GDALClose(dataSet); }
-};
-using DataSet = std::unique_ptr<void, DataSetCloser>;
 
 struct SpatialReferenceReleaser {
     void operator()(OGRSpatialReferenceH reference) const { OSRRelease(reference); }
 };
 using SpatialReference = std::unique_ptr<void, SpatialReferenceReleaser>;
-
-// Keeps GDAL's messages of this thread from the terminal while it exists; the last one can be asked for.
-struct QuietErrors {
-    QuietErrors() {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-        CPLErrorReset();
-    }
-    ~QuietErrors() { CPLPopErrorHandler(); }
-    QuietErrors(const QuietErrors&) = delete;
-    QuietErrors& operator=(const QuietErrors&) = delete;
-    static std::string lastMessage() {
-        const std::string message = CPLGetLastErrorMsg();
-        return message.empty() ? "truncated or damaged" : message;
-    }
-};
-
-// Makes GDAL initialise its reader of TIFF now, and puts libtiff's message handlers back that it replaces: without
-// its own, OpenImageIO does not notice a truncated file.
-void registerFormats() {
-    const TIFFErrorHandler errors = TIFFSetErrorHandler(nullptr);
-    const TIFFErrorHandler warnings = TIFFSetWarningHandler(nullptr);
-    GDALAllRegister();
-    constexpr const char* inMemory = "/vsimem/worldy-first.tif";
-    GDALClose(GDALCreate(GDALGetDriverByName("GTiff"), inMemory, 1, 1, 1, GDT_Byte, nullptr));
-    VSIUnlink(inMemory);
-    TIFFSetErrorHandler(errors);
-    TIFFSetWarningHandler(warnings);
-}
-
-void prepareGdal() {
-    static std::once_flag once;
-    std::call_once(once, [] {
-        const QuietErrors quiet;
-        registerFormats();
-        GDALSetCacheMax(gdalCacheBytes);
-        // GDAL would list the folder of each file, which takes long for a folder of ten thousand tiles.
-        CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
-        // A truncated file is an error instead of zeros.
-        CPLSetConfigOption("GTIFF_IGNORE_READ_ERRORS", "FALSE");
-        CPLSetConfigOption("PROJ_NETWORK", "OFF");
-    });
-}
-
-DataSet openDataSet(const std::filesystem::path& path) {
-    prepareGdal();
-    return DataSet(
-        GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, formats.data(), nullptr, nullptr));
-}
 
 // The data sets that no thread is reading, the most recently used first.
 class IdleDataSets {
@@ -106,7 +48,7 @@ public:
                 return dataSet;
             }
         }
-        return openDataSet(raster->path());
+        return openDataSet(raster->gdalName(), raster->isVrt());
     }
     void giveBack(const GdalRaster* raster, DataSet dataSet) {
         DataSet oldest;  // closed without the lock
@@ -286,14 +228,6 @@ bool hasMaskBand(GDALDatasetH dataSet) {
 
 }  // namespace
 
-bool isGdalRaster(const std::filesystem::path& path) {
-    std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem)) return false;
-    prepareGdal();
-    const QuietErrors quiet;
-    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, formats.data(), nullptr) != nullptr;
-}
-
 Result<std::shared_ptr<const Raster>> GdalRaster::open(const std::filesystem::path& path,
                                                        const HeightSourceSettings& settings) {
     std::error_code problem;
@@ -303,15 +237,21 @@ Result<std::shared_ptr<const Raster>> GdalRaster::open(const std::filesystem::pa
         return badInput(fmt::format("{}: is not a file", path.string()));
     }
     const QuietErrors quiet;
-    DataSet dataSet = openDataSet(path);
+    const std::shared_ptr<GdalRaster> raster(new GdalRaster);
+    raster->path_ = path;
+    raster->isVrt_ = isVrtFile(path);
+    raster->gdalName_ = path.string();
+    if (raster->isVrt_) {
+        TRY_ASSIGN(auto vrt, checkedVrt(path));
+        raster->gdalName_ = std::move(vrt.xml);
+    }
+    DataSet dataSet = openDataSet(raster->gdalName_, raster->isVrt_);
     if (!dataSet) {
         return badInput(fmt::format(
             "{}: is not a readable raster ({}); expected GeoTIFF, HGT, DTED, an ASCII grid, netCDF, "
-            "JPEG 2000, ENVI or a similar format",
+            "JPEG 2000, ENVI, VRT or a similar format",
             path.string(), QuietErrors::lastMessage()));
     }
-    const std::shared_ptr<GdalRaster> raster(new GdalRaster);
-    raster->path_ = path;
     TRY_ASSIGN(raster->layout_, rasterLayoutOf(path, dataSet.get(), settings));
     raster->hasMask_ = hasMaskBand(dataSet.get());
     idleDataSets().giveBack(raster.get(), std::move(dataSet));

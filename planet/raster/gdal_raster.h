@@ -1,9 +1,9 @@
-// Reads the first band of georeferenced rasters with GDAL, in metres. Only the formats on a list are opened:
-// none of them fetches anything from a network. Internal to the library.
+// Reads the first band of georeferenced rasters with GDAL, in metres (gdal_formats.h). Internal to the library.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "planet/base/result.h"
@@ -11,10 +11,6 @@
 #include "planet/raster/raster.h"
 
 namespace planet {
-
-// Returns whether GDAL recognises a file as a raster in one of the formats on the list. The file may still be
-// unusable.
-bool isGdalRaster(const std::filesystem::path& path);
 
 // A raster that GDAL reads. Each thread that reads borrows a data set of its own. At most 64 idle data
 // sets of the whole process stay open, so that a mosaic of thousands of files does not use up the process's
@@ -28,6 +24,10 @@ public:
                                                       const HeightSourceSettings& settings);
     ~GdalRaster() override;
 
+    // What GDAL opens: the path, or the text of a VRT (vrt_file.h).
+    const std::string& gdalName() const { return gdalName_; }
+    bool isVrt() const { return isVrt_; }
+
     // Missing samples are those with the no-data value, those that a mask or alpha hides, and those without a finite
     // height.
     Result<std::vector<float>> readBlock(int blockX, int blockY) const override;
@@ -35,6 +35,8 @@ public:
 private:
     GdalRaster() = default;
 
+    std::string gdalName_;
+    bool isVrt_ = false;
     bool hasMask_ = false;
 };
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "planet/base/try.h"
+#include "planet/raster/gdal_formats.h"
 #include "planet/raster/gdal_raster.h"
 #include "planet/raster/height_raster.h"
 

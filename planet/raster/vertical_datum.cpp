@@ -45,7 +45,7 @@ Result<const char*> gridOf(VerticalDatum datum) {
     const char* const wanted = entryOf(datum).grids[0];
     return ioError(
         fmt::format("{}: PROJ has no such grid for datum {} in {}; expected it from \"projsync --file {}\" "
-                    "(Debian's proj-data lacks it), or offset_m in the layer instead of the grid",
+                    "(Debian's proj-data has only egm96_15.gtx), or offset_m in the layer instead of the grid",
                     wanted, entryOf(datum).name, proj_info().searchpath, wanted));
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "planet/base/try.h"
-#include "planet/raster/gdal_raster.h"
+#include "planet/raster/gdal_formats.h"
 #include "planet/raster/image_placement.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/terrain.h"

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "planet/raster/geo_tags.h"
+#include "planet/raster/vrt_file.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/terrain.h"
@@ -206,8 +207,14 @@ bool terrainExists(const std::filesystem::path& text) {
     return terrain && (terrain->of.empty() || heightSourceExists(terrain->of));
 }
 
+// Adds what lies beside files and is read with them, and the sources of a VRT.
 void addSidecars(std::vector<std::filesystem::path>& files) {
     std::vector<std::filesystem::path> sidecars;
+    for (const std::filesystem::path& file : files) {
+        if (lowerCase(file.extension().string()) != ".vrt") continue;
+        const Result<VrtFile> vrt = checkedVrt(file);
+        if (vrt) sidecars.insert(sidecars.end(), vrt->sources.begin(), vrt->sources.end());
+    }
     for (const std::filesystem::path& file : files) {
         const std::vector<std::filesystem::path> found = sidecarsOf(file);
         sidecars.insert(sidecars.end(), found.begin(), found.end());
