@@ -38,6 +38,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"file_bytes", report.fileBytes},
                                          {"bits_per_sample", bitsPerSample(report)},
                                          {"missing_samples", report.missingSamples},
+                                         {"skipped", source.skipped},
                                          {"root_delta_c_m", report.largestDeltaCM},
                                          {"root_tight_m", report.largestDeltaTightM},
                                          {"colour_tiles", report.colourTiles},
@@ -71,7 +72,9 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
                distanceText(static_cast<double>(report.largestDeltaTightM)));
 }
 
-void printWarnings(const BakeOptions& options, const planet::BakeReport& report) {
+void printWarnings(const planet::HeightSource& source, const BakeOptions& options,
+                   const planet::BakeReport& report) {
+    for (const std::string& message : source.skipped) printMessage("worldy: skipped {}\n", message);
     if (report.missingSamples > 0) {
         const std::string instead = planet::isWorldFile(options.source)
                                         ? "its layers say what they show"
@@ -139,7 +142,7 @@ planet::Result<void> runBake(const BakeOptions& options) {
     const planet::Result<planet::BakeReport> report =
         bakeOnTerminal(*source, named->settings, options.output, colour ? &*colour : nullptr);
     if (!report) return tl::unexpected(report.error());
-    printWarnings(options, *report);
+    printWarnings(*source, options, *report);
     (options.json ? printJson : printText)(*source, options, *report);
     return {};
 }

@@ -130,6 +130,8 @@ void addSourceOptions(CLI::App& command, planet::HeightSourceSettings& source) {
                        "Value that means \"no data\", instead of a GeoTIFF's own; NaN is always no data");
     command.add_option("--fill", source.fillM, "Height of samples without data, metres (0)")
         ->check(number(-1e9, 1e9));
+    command.add_flag("--skip-broken", source.skipBroken,
+                     "Leaves out rasters that cannot be opened or read, and warns of each");
     command.add_option("--raw-size", source.rawSize, "Raw faces: samples per side")
         ->check(CLI::Range(2, (1 << 22) + 1));
     command.add_option("--raw-bits", source.rawBits, "Raw faces: 8 or 16")->check(CLI::IsMember({8, 16}));

@@ -63,6 +63,7 @@ std::string identityOf(const planet::HeightSourceSettings& settings) {
     // one.
     if (settings.metresPerUnit == 1) identity += " unit 1";
     if (settings.offsetM == 0) identity += " offset 0";
+    if (settings.skipBroken) identity += " skip broken";
     return identity;
 }
 

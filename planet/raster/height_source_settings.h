@@ -25,6 +25,9 @@ struct HeightSourceSettings {
     // 1]. Integers are read as sRGB, floats as linear light. A grey image is the same in all three channels;
     // alpha is ignored.
     std::optional<int> colourChannel;
+    // Rasters that cannot be opened or read are left out, and HeightSource::skipped tells of them. Otherwise they are an
+    // Error.
+    bool skipBroken = false;
     // Memory limit for heights, bytes; each takes 4 bytes. A larger source is read in blocks; if its file has
     // no blocks, such as a PNG, it is copied once to a temporary file.
     std::size_t cacheBytes = 48u << 20;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <mutex>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -233,15 +233,16 @@ bool CoveredSquares::meet(const ChunkId& square) const {
     return found != indices.end() && *found - first < (std::uint64_t{1} << shift);
 }
 
-Result<RasterArea> surveyArea(RasterMosaic mosaic) {
-    RasterArea area{.mosaic = std::move(mosaic), .statistics = {}, .covered = {}};
+AreaSurvey surveyArea(RasterMosaic mosaic) {
+    AreaSurvey survey{{.mosaic = std::move(mosaic), .statistics = {}, .covered = {}}, {}};
+    RasterArea& area = survey.area;
     setResolution(area);
     setCap(area);
     area.covered.level =
         std::clamp(static_cast<int>(std::lround(std::log2(area.faceCells))) - cellSamplesLog2, 0, maxLevel);
     area.stepM = commonStepM(area.mosaic);
     const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
-    std::optional<Error> failure;
+    std::map<std::size_t, Error> broken;
     std::mutex mutex;
     parallelFor(blocks.size(), [&](std::size_t i) {
         const auto& [tileIndex, x, y] = blocks[i];
@@ -249,32 +250,32 @@ Result<RasterArea> surveyArea(RasterMosaic mosaic) {
         const RasterLayout& layout = tile.raster->layout();
         {
             const std::lock_guard lock(mutex);
-            if (failure) return;
+            if (broken.contains(tileIndex)) return;
         }
         const Result<std::vector<float>> heights = tile.raster->readBlock(x, y);
         if (!heights) {
             const std::lock_guard lock(mutex);
-            failure = heights.error();
+            broken.emplace(tileIndex, heights.error());
             return;
         }
         const int left = x * layout.blockWidth;
         const int top = y * layout.blockHeight;
-        const BlockSurvey survey = surveyBlock(
+        const BlockSurvey block = surveyBlock(
             {tile.rect.column + left, tile.rect.row + top, std::min(layout.blockWidth, layout.width - left),
              std::min(layout.blockHeight, layout.height - top)},
             *heights);
         std::vector<std::uint64_t> squares;
-        for (const glm::dvec3& direction : survey.lattice.directions(area.mosaic.placement()))
+        for (const glm::dvec3& direction : block.lattice.directions(area.mosaic.placement()))
             squares.push_back(squareAt(direction, area.covered.level));
         sortUnique(squares);
         const std::lock_guard lock(mutex);
-        addTo(area.statistics, survey.statistics);
+        addTo(area.statistics, block.statistics);
         area.sampleCount += heights->size();
         area.covered.indices.insert(area.covered.indices.end(), squares.begin(), squares.end());
     });
-    if (failure) return tl::unexpected(*std::move(failure));
+    for (auto& [tile, error] : broken) survey.broken.push_back({tile, std::move(error)});
     sortUnique(area.covered.indices);
-    return area;
+    return survey;
 }
 
 }  // namespace planet

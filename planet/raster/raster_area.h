@@ -2,6 +2,7 @@
 // Internal to the library.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -43,8 +44,18 @@ inline int finestCellsIn(const RasterArea& area, const ChunkId& square) {
     return area.covered.meet(square) ? area.faceCells : 1;
 }
 
-// Reads every sample once. The Error names the file.
-Result<RasterArea> surveyArea(RasterMosaic mosaic);
+// Surveys an area. It is right only if no tile is broken.
+struct AreaSurvey {
+    RasterArea area;
+    struct BrokenTile {
+        std::size_t tile = 0;
+        Error error;  // names the file
+    };
+    std::vector<BrokenTile> broken;  // in the order of the tiles
+};
+
+// Reads every sample once.
+AreaSurvey surveyArea(RasterMosaic mosaic);
 
 // The number of samples in a radian along each axis of a grid.
 struct SampleDensity {

@@ -62,7 +62,9 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
     }
     Result<HeightSource> source = openHeightSource(terrain.of, settings);
     if (!source) return source;
+    std::vector<std::string> skipped = source->skipped;
     Result<HeightSource> result = amplified(*std::move(source), *detail);
+    if (result) result->skipped = std::move(skipped);
     // The description must be enough to open the source again.
     if (result) result->description = wholeTerrainText(text).value_or(result->description);
     return result;

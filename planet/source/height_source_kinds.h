@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,10 +30,19 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
                                       const HeightSourceSettings& settings);
 
 // The areas of rasters, those with the most samples in a radian first.
-Result<std::vector<RasterArea>> openRasterAreas(const std::vector<std::filesystem::path>& files,
-                                                const HeightSourceSettings& settings);
-Result<std::vector<RasterArea>> surveyRasters(const std::vector<std::shared_ptr<const Raster>>& rasters,
-                                              const HeightSourceSettings& settings);
+struct RasterAreas {
+    std::vector<RasterArea> areas;     // none if all files were skipped
+    std::vector<std::string> skipped;  // as in HeightSource
+};
+Result<RasterAreas> openRasterAreas(const std::vector<std::filesystem::path>& files,
+                                    const HeightSourceSettings& settings);
+// The same for rasters that open() opens by their number; files are for messages.
+Result<RasterAreas> openRasterAreas(
+    const std::vector<std::filesystem::path>& files, const HeightSourceSettings& settings,
+    const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open);
+
+// Returns ", 1 file skipped" for a description; empty if none was.
+std::string skippedText(std::size_t count);
 
 // Returns whether a path names an image of the whole planet or six cube faces.
 bool coversPlanet(const std::filesystem::path& path);

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +25,7 @@ namespace {
 
 constexpr int rasterPieceSide = 65;  // samples per side of a piece of a tile
 constexpr std::size_t mostRasters = 1u << 20;
+constexpr std::size_t mostNamed = 10;  // broken files in a message
 
 struct Rasters {
     std::vector<RasterArea> areas;  // the finest first
@@ -57,29 +61,108 @@ std::string describe(const std::filesystem::path& path, const std::vector<Raster
                        areas.size() == 1 ? "" : "s", first.crsName);
 }
 
-}  // namespace
+struct BrokenFile {
+    std::size_t number = 0;
+    Error error;
+};
 
-Result<std::vector<RasterArea>> openRasterAreas(const std::vector<std::filesystem::path>& files,
-                                                const HeightSourceSettings& settings) {
-    std::vector<std::shared_ptr<const Raster>> rasters;
-    for (const std::filesystem::path& file : files) {
-        TRY_ASSIGN(auto raster, GdalRaster::open(file, settings));
-        rasters.push_back(std::move(raster));
-    }
-    return surveyRasters(rasters, settings);
+// An open raster, and the number of its file.
+struct OpenRaster {
+    std::shared_ptr<const Raster> raster;
+    std::size_t number = 0;
+};
+
+// Returns the Error of the first broken file, with the names of up to ten.
+Error errorOf(const std::vector<std::filesystem::path>& files, const std::vector<BrokenFile>& broken) {
+    Error error = broken[0].error;
+    if (files.size() == 1) return error;
+    std::string names;
+    for (std::size_t i = 0; i < broken.size() && i < mostNamed; ++i)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", files[broken[i].number].filename().string());
+    if (broken.size() > mostNamed) names += fmt::format(" and {} more", broken.size() - mostNamed);
+    error.message += fmt::format("; {} of {} files {} broken ({}); --skip-broken leaves {} out",
+                                 broken.size(), files.size(), broken.size() == 1 ? "is" : "are", names,
+                                 broken.size() == 1 ? "it" : "them");
+    return error;
 }
 
-Result<std::vector<RasterArea>> surveyRasters(const std::vector<std::shared_ptr<const Raster>>& rasters,
-                                              const HeightSourceSettings& settings) {
-    const auto cache = std::make_shared<HeightBlockCache>(settings.cacheBytes);
-    TRY_ASSIGN(auto mosaics, RasterMosaic::join(rasters, cache));
+// Opens rasters. PROJ must know the way to each reference system.
+std::vector<OpenRaster> openRasters(
+    const std::vector<std::filesystem::path>& files,
+    const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open,
+    std::vector<BrokenFile>& broken) {
+    std::vector<OpenRaster> rasters;
+    std::set<std::string> known;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Result<std::shared_ptr<const Raster>> raster = open(i);
+        if (!raster) {
+            broken.push_back({i, raster.error()});
+            continue;
+        }
+        const RasterLayout& layout = (*raster)->layout();
+        if (!known.contains(layout.crs)) {
+            const auto placement = RasterPlacement::make(files[i].string(), {layout.x, layout.y, layout.crs});
+            if (!placement) {
+                broken.push_back({i, placement.error()});
+                continue;
+            }
+            known.insert(layout.crs);
+        }
+        rasters.push_back({*raster, i});
+    }
+    return rasters;
+}
+
+// Joins and surveys rasters. Moves those that cannot be read to the broken ones.
+Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters, std::size_t cacheBytes,
+                                         std::vector<BrokenFile>& broken) {
+    std::vector<std::shared_ptr<const Raster>> whole;
+    for (const OpenRaster& raster : rasters) whole.push_back(raster.raster);
+    TRY_ASSIGN(auto mosaics, RasterMosaic::join(whole, std::make_shared<HeightBlockCache>(cacheBytes)));
     std::vector<RasterArea> areas;
     for (RasterMosaic& mosaic : mosaics) {
-        TRY_ASSIGN(auto area, surveyArea(std::move(mosaic)));
-        areas.push_back(std::move(area));
+        AreaSurvey survey = surveyArea(std::move(mosaic));
+        for (const auto& [tile, error] : survey.broken) {
+            const auto found =
+                std::ranges::find(rasters, survey.area.mosaic.tiles()[tile].raster, &OpenRaster::raster);
+            broken.push_back({found->number, error});
+            rasters.erase(found);
+        }
+        areas.push_back(std::move(survey.area));
     }
-    std::ranges::stable_sort(areas, std::greater(), &RasterArea::samplesPerRad);
     return areas;
+}
+
+}  // namespace
+
+std::string skippedText(std::size_t count) {
+    return count == 0 ? "" : fmt::format(", {} file{} skipped", count, count == 1 ? "" : "s");
+}
+
+Result<RasterAreas> openRasterAreas(
+    const std::vector<std::filesystem::path>& files, const HeightSourceSettings& settings,
+    const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open) {
+    RasterAreas found;
+    std::vector<BrokenFile> broken;
+    std::vector<OpenRaster> rasters = openRasters(files, open, broken);
+    // Without the broken rasters, the others are joined and surveyed again.
+    for (bool done = rasters.empty(); !done;) {
+        const std::size_t count = rasters.size();
+        TRY_ASSIGN(found.areas, surveyed(rasters, settings.cacheBytes, broken));
+        done = rasters.size() == count || rasters.empty() || !settings.skipBroken;
+    }
+    std::ranges::sort(broken, {}, &BrokenFile::number);
+    if (!broken.empty() && !settings.skipBroken) return tl::unexpected(errorOf(files, broken));
+    if (rasters.empty()) found.areas.clear();
+    for (const BrokenFile& file : broken) found.skipped.push_back(file.error.message);
+    std::ranges::stable_sort(found.areas, std::greater(), &RasterArea::samplesPerRad);
+    return found;
+}
+
+Result<RasterAreas> openRasterAreas(const std::vector<std::filesystem::path>& files,
+                                    const HeightSourceSettings& settings) {
+    return openRasterAreas(files, settings,
+                           [&](std::size_t i) { return GdalRaster::open(files[i], settings); });
 }
 
 Result<HeightSource> openRasterSource(const std::filesystem::path& path,
@@ -89,9 +172,15 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         return badInput(fmt::format("{}: matches {} files; expected at most {}", path.string(), files.size(),
                                     mostRasters));
     }
-    TRY_ASSIGN(auto areas, openRasterAreas(files, settings));
+    TRY_ASSIGN(auto opened, openRasterAreas(files, settings));
+    std::vector<RasterArea>& areas = opened.areas;
+    if (areas.empty()) {
+        return badInput(fmt::format("{}; all {} files are broken; expected some that can be read",
+                                    opened.skipped[0], files.size()));
+    }
     HeightSource source;
-    source.description = describe(path, areas);
+    source.description = describe(path, areas) + skippedText(opened.skipped.size());
+    source.skipped = std::move(opened.skipped);
     HeightStatistics statistics;
     int faceCells = 1;
     source.stepM = areas[0].stepM;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "planet/base/result.h"
 #include "planet/raster/height_source_settings.h"
@@ -51,6 +52,8 @@ struct HeightSource {
     // about it. 0 and empty if the faces agree.
     int seamEdges = 0;
     std::string notice{};
+    // What was left out because of HeightSourceSettings::skipBroken: a message for each file.
+    std::vector<std::string> skipped{};
 
     // Returns the smallest power of two of cells along a face that loses no data under this square of its
     // face, [1, 2^22]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -205,7 +206,8 @@ public:
 
     HeightSource finish(std::string description) {
         HeightSource source;
-        source.description = std::move(description);
+        source.description = std::move(description) + skippedText(skipped_.size());
+        source.skipped = skipped_;
         source.naturalFaceSize = extent_.faceCells + 1;
         source.minM = world_->minM;
         source.maxM = world_->maxM;
@@ -255,6 +257,7 @@ private:
 
     Result<void> addWhole(const WorldLayer& layer, const std::filesystem::path& path) {
         TRY_ASSIGN(auto source, openHeightSource(path, settings_));
+        skipped_.insert(skipped_.end(), source.skipped.begin(), source.skipped.end());
         // The first layer covers the planet, so the height without any does not count.
         if (world_->parts.empty() && layer.join == LayerJoin::Replace) {
             world_->minM = std::numeric_limits<double>::infinity();
@@ -266,8 +269,8 @@ private:
     }
 
     Result<void> addRasters(const WorldLayer& layer, const std::vector<std::filesystem::path>& files) {
-        TRY_ASSIGN(auto areas, openRasterAreas(files, settings_));
-        addAreas(layer, std::move(areas));
+        TRY_ASSIGN(auto opened, openRasterAreas(files, settings_));
+        addAreas(layer, std::move(opened));
         return {};
     }
 
@@ -276,16 +279,18 @@ private:
         settings.rawSize = layer.rawSize;
         settings.rawBigEndian = layer.rawBigEndian;
         settings.rawSigned = layer.rawSigned;
-        TRY_ASSIGN(auto image, openPlacedImage(file, *layer.place, radiusM_, settings));
-        TRY_ASSIGN(auto areas, surveyRasters({std::move(image)}, settings));
-        addAreas(layer, std::move(areas));
+        TRY_ASSIGN(auto opened, openRasterAreas({file}, settings, [&](std::size_t) {
+                       return openPlacedImage(file, *layer.place, radiusM_, settings);
+                   }));
+        addAreas(layer, std::move(opened));
         return {};
     }
 
-    void addAreas(const WorldLayer& layer, std::vector<RasterArea> areas) {
+    void addAreas(const WorldLayer& layer, RasterAreas opened) {
+        skipped_.insert(skipped_.end(), opened.skipped.begin(), opened.skipped.end());
         // Of rasters on different grids, the finest lies on top.
-        std::ranges::reverse(areas);
-        for (RasterArea& area : areas) {
+        std::ranges::reverse(opened.areas);
+        for (RasterArea& area : opened.areas) {
             widen(layer, extentOf(area));
             auto part = std::make_unique<RasterPart>(RasterPart{std::move(area), {}});
             if (layer.featherM > 0) {
@@ -323,6 +328,7 @@ private:
     std::optional<DatumShift> shift_;     // of the layer that is being added
     std::unique_ptr<World> world_;
     Extent extent_;
+    std::vector<std::string> skipped_;  // as in HeightSource
 };
 
 }  // namespace
