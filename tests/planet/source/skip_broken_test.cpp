@@ -22,7 +22,7 @@ class SkipBroken : public testing::Test {
 protected:
     SkipBroken() {
         for (int i = 0; i < 14; ++i) {
-            tests::writeRaster(tile(i), {4326, 20, 20, 10 + 0.2 * i, 45, 0.01},
+            test::writeRaster(tile(i), {4326, 20, 20, 10 + 0.2 * i, 45, 0.01},
                                [i](double, double) { return 100 + i; });
         }
         settings.skipBroken = true;
@@ -56,7 +56,7 @@ TEST_F(SkipBroken, FilesThatCannotBeOpenedOrReadAreLeftOut) {
 
 TEST_F(SkipBroken, BrokenTileGivesNoHeightsToTheRange) {
     // The tile at the end is the highest, and its first block can be read.
-    tests::writeRaster(tile(13), {4326, 600, 600, 20, 45, 0.01}, [](double, double) { return 5000; },
+    test::writeRaster(tile(13), {4326, 600, 600, 20, 45, 0.01}, [](double, double) { return 5000; },
                        {.options = {"TILED=YES", "BLOCKXSIZE=256", "BLOCKYSIZE=256"}});
     truncate(13);
     const HeightSource source = mustOpen(folder / "*.tif", settings);
@@ -65,7 +65,7 @@ TEST_F(SkipBroken, BrokenTileGivesNoHeightsToTheRange) {
 }
 
 TEST_F(SkipBroken, UnknownReferenceSystemIsLeftOut) {
-    tests::writeRaster(tile(3), {4326, 20, 20, 10, 45, 0.01}, [](double, double) { return 1; },
+    test::writeRaster(tile(3), {4326, 20, 20, 10, 45, 0.01}, [](double, double) { return 1; },
                        {.hasCrs = false});
     const HeightSource source = mustOpen(folder / "*.tif", settings);
     EXPECT_THAT(source.skipped, ElementsAre(HasSubstr("tile03.tif: has no coordinate reference system")));

@@ -27,12 +27,12 @@ class Vrt : public testing::Test {
 protected:
     Vrt() {
         std::filesystem::create_directories(in / "tiles");
-        const tests::Grid west{4326, 20, 20, 10, 45, 0.01};
-        tests::Grid east = west;
+        const test::SampleGrid west{4326, 20, 20, 10, 45, 0.01};
+        test::SampleGrid east = west;
         east.x += 0.2;
-        tests::writeRaster(in / "tiles/west.tif", west, [](double, double) { return 100; });
-        tests::writeRaster(in / "tiles/east.tif", east, [](double, double) { return 200; });
-        tests::writeRaster(folder / "outside.tif", west, [](double, double) { return 300; });
+        test::writeRaster(in / "tiles/west.tif", west, [](double, double) { return 100; });
+        test::writeRaster(in / "tiles/east.tif", east, [](double, double) { return 200; });
+        test::writeRaster(folder / "outside.tif", west, [](double, double) { return 300; });
     }
 
     static std::string source(const std::string& name, int column, const std::string& kind = "SimpleSource",
