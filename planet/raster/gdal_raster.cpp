@@ -28,7 +28,9 @@ namespace {
 constexpr int mostRasterSide = 1 << 22;                // samples
 constexpr int leastBlockSide = 128;                    // samples; smaller blocks of a file are read together
 constexpr std::int64_t mostBlockSamples = 16LL << 20;  // a larger block could not be read in bounded memory
-constexpr std::size_t mostIdle = 64;                   // data sets
+// A survey reads every sample. More, in a header that lies, would keep it busy for hours.
+constexpr std::int64_t mostRasterSamples = std::int64_t{1} << 38;
+constexpr std::size_t mostIdle = 64;  // data sets
 
 struct SpatialReferenceReleaser {
     void operator()(OGRSpatialReferenceH reference) const { OSRRelease(reference); }
@@ -195,6 +197,10 @@ Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatas
         layout.height > mostRasterSide) {
         return badInput(fmt::format("{}: is {} x {} samples; expected [1, {}] per side", file, layout.width,
                                     layout.height, mostRasterSide));
+    }
+    if (std::int64_t{layout.width} * layout.height > mostRasterSamples) {
+        return badInput(fmt::format("{}: is {} x {} samples; expected at most 2^38 in all", file,
+                                    layout.width, layout.height));
     }
     GDALRasterBandH const band = GDALGetRasterBand(dataSet, 1);
     const bool alphaFollows =

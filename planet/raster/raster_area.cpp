@@ -84,7 +84,7 @@ std::uint64_t squareAt(const glm::dvec3& direction, int level) {
 
 void sortUnique(std::vector<std::uint64_t>& values) {
     std::ranges::sort(values);
-    values.erase(std::ranges::unique(values).begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 // The statistics of a block, and lattices over its cells that hold a height.

@@ -122,7 +122,11 @@ RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement,
                            std::shared_ptr<HeightBlockCache> cache, int number)
     : placement_(std::move(placement)), layout_(first.layout()), cache_(std::move(cache)), number_(number) {
     const double around = placement_.columnsAround();
-    if (around >= 1 && std::abs(around - std::round(around)) < offGrid) period_ = std::llround(around);
+    // A header that lies can put the poles where the rows do not fit in integers.
+    const double farthest =
+        std::max({around, std::abs(placement_.northRow()), std::abs(placement_.southRow())});
+    if (around >= 1 && farthest < 1e9 && std::abs(around - std::round(around)) < offGrid)
+        period_ = std::llround(around);
 }
 
 Result<std::vector<RasterMosaic>> RasterMosaic::join(const std::vector<RasterPtr>& rasters,
@@ -200,7 +204,7 @@ Result<void> RasterMosaic::forTilesIn(const GridRect& rect, const Visit& visit) 
         candidates.insert(candidates.end(), inBand.begin(), inBand.end());
     }
     std::ranges::sort(candidates);
-    candidates.erase(std::ranges::unique(candidates).begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
     for (const std::size_t tile : candidates) {
         GridRect place = tiles_[tile].rect;
         if (period_ > 0)

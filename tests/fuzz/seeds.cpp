@@ -1,7 +1,10 @@
 // Writes the seeds of the fuzzers from the data that comes with Worldy: fuzz_seeds FOLDER makes
 // FOLDER/chunk_file/..., FOLDER/settings/..., one folder per fuzzer.
+#include <gdal.h>
+#include <ogr_srs_api.h>
 #include <zstd.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -227,6 +230,48 @@ void rawFaces(const fs::path& folder) {
     seed("cut_short", {1, 3, 1}, std::span(shorts).first(100), 1);
 }
 
+// ---- rasters ----
+
+// Small rasters of the formats that GDAL writes into one file.
+void rasters(const fs::path& folder) {
+    fs::create_directories(folder);
+    GDALAllRegister();
+    const GDALDatasetH made = GDALCreate(GDALGetDriverByName("MEM"), "", 12, 9, 1, GDT_Int16, nullptr);
+    double transform[] = {10, 0.01, 0, 45, 0, -0.01};
+    GDALSetGeoTransform(made, transform);
+    GDALSetProjection(made, SRS_WKT_WGS84_LAT_LONG);
+    GDALSetRasterNoDataValue(GDALGetRasterBand(made, 1), -9999);
+    std::vector<std::int16_t> samples(12 * 9);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] = static_cast<std::int16_t>(i % 7 ? i * 13 : -9999);
+    if (GDALRasterIO(GDALGetRasterBand(made, 1), GF_Write, 0, 0, 12, 9, samples.data(), 12, 9, GDT_Int16, 0,
+                     0) != CE_None)
+        std::abort();
+    const char* const deflate[] = {"COMPRESS=DEFLATE", "TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16",
+                                   nullptr};
+    const char* const lzw[] = {"COMPRESS=LZW", "PREDICTOR=2", nullptr};
+    struct Seed {
+        const char* driver;
+        const char* name;
+        const char* const* options;
+    };
+    for (const auto& [driver, name, options] :
+         {Seed{"GTiff", "rows.tif", nullptr}, Seed{"GTiff", "tiled.tif", deflate},
+          Seed{"GTiff", "lzw.tif", lzw}, Seed{"AAIGrid", "grid.asc", nullptr},
+          Seed{"HFA", "erdas.img", nullptr}, Seed{"JP2OpenJPEG", "grid.jp2", nullptr}}) {
+        GDALClose(GDALCreateCopy(GDALGetDriverByName(driver), (folder / name).c_str(), made, FALSE, options,
+                                 nullptr, nullptr));
+    }
+    GDALClose(made);
+    write(
+        folder / "mosaic.vrt",
+        std::string(
+            "<VRTDataset rasterXSize=\"12\" rasterYSize=\"9\"><SRS>EPSG:4326</SRS><GeoTransform>10, 0.01, 0, "
+            "45, 0, -0.01</GeoTransform><VRTRasterBand dataType=\"Int16\" band=\"1\"><SimpleSource>"
+            "<SourceFilename relativeToVRT=\"1\">rows.tif</SourceFilename><SourceBand>1</SourceBand>"
+            "</SimpleSource></VRTRasterBand></VRTDataset>"));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -242,5 +287,6 @@ int main(int argc, char** argv) {
     copyToml(data / "flights", folder / "flight_path");
     recordedFlights(folder / "flight_record");
     rawFaces(folder / "raw_faces");
+    rasters(folder / "raster");
     return EXIT_SUCCESS;
 }
