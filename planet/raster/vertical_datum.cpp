@@ -43,10 +43,10 @@ Result<const char*> gridOf(VerticalDatum datum) {
         if (ProjPtr(proj_create(context.get(), stepOf(grid, 1).c_str()))) return grid;
     }
     const char* const wanted = entryOf(datum).grids[0];
-    return ioError(
-        fmt::format("{}: PROJ has no such grid for datum {} in {}; expected it from \"projsync --file {}\" "
-                    "(Debian's proj-data has only egm96_15.gtx), or offset_m in the layer instead of the grid",
-                    wanted, entryOf(datum).name, proj_info().searchpath, wanted));
+    return ioError(fmt::format(
+        "{}: PROJ has no such grid for datum {} in {}; expected it from \"projsync --file {}\" "
+        "(Debian's proj-data has only egm96_15.gtx), or offset_m in the layer instead of the grid",
+        wanted, entryOf(datum).name, proj_info().searchpath, wanted));
 }
 
 // The steps of a shift: N(from) - N(to).
