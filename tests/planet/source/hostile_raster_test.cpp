@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 class HostileRaster : public testing::Test {
 protected:
-    static tests::Grid grid() { return tests::gridAround(4326, 10, 45, 40, 40, 0.01); }
+    static test::SampleGrid grid() { return test::gridAround(4326, 10, 45, 40, 40, 0.01); }
     static double height(double longitude, double latitude) { return std::round(longitude * latitude); }
 
     const TemporaryFolder folder;
@@ -49,7 +49,7 @@ TEST_F(HostileRaster, EveryTruncationIsRefusedOrReadWithinItsRange) {
         {"JP2OpenJPEG", "grid.jp2", {"REVERSIBLE=YES", "QUALITY=100"}}};
     for (const Format& format : formats) {
         const std::filesystem::path path = folder / format.name;
-        tests::writeRaster(path, grid(), height,
+        test::writeRaster(path, grid(), height,
                            {.format = format.driver, .type = GDT_Int16, .options = format.options});
         const auto whole = std::filesystem::file_size(path);
         int refused = 0;
@@ -85,7 +85,7 @@ TEST_F(HostileRaster, DimensionsThatAFileCannotHoldAreRefused) {
         EXPECT_THAT(asciiGrid(columns, rows),
                     AnyOf(HasSubstr("is not a readable raster"), HasSubstr("samples")));
 
-    const tests::Grid place = grid();
+    const test::SampleGrid place = grid();
     writeBytes(folder / "b.bil", "12");
     writeBytes(folder / "b.hdr",
                "NCOLS 4000000\nNROWS 4000000\nNBITS 16\nULXMAP 10\nULYMAP 45\nXDIM 0.00001\nYDIM 0.00001\n");
@@ -101,7 +101,7 @@ TEST_F(HostileRaster, DimensionsThatAFileCannotHoldAreRefused) {
     ASSERT_TRUE(sparse);
     double transform[] = {10, 1e-5, 0, 45, 0, -1e-5};
     GDALSetGeoTransform(sparse, transform);
-    GDALSetSpatialRef(sparse, tests::Crs(4326).system());
+    GDALSetSpatialRef(sparse, test::Crs(4326).system());
     GDALClose(sparse);
     EXPECT_THAT(errorOf(folder / "spars*.tif"), HasSubstr("2097152 x 262144 samples; expected at most 2^38"));
 }
@@ -116,13 +116,13 @@ TEST_F(HostileRaster, BlocksThatDoNotFitInMemoryAreRefused) {
     ASSERT_TRUE(made);
     double transform[] = {10, 1e-5, 0, 45, 0, -1e-5};
     GDALSetGeoTransform(made, transform);
-    GDALSetSpatialRef(made, tests::Crs(4326).system());
+    GDALSetSpatialRef(made, test::Crs(4326).system());
     GDALClose(made);
     EXPECT_THAT(errorOf(folder / "bloc*.tif"), HasSubstr("has blocks of 32768 x 32768 samples"));
 }
 
 TEST_F(HostileRaster, VrtThatClaimsMoreThanItsSourcesIsRefused) {
-    tests::writeRaster(folder / "a.tif", grid(), height);
+    test::writeRaster(folder / "a.tif", grid(), height);
     writeBytes(
         folder / "a.vrt",
         "<VRTDataset rasterXSize=\"4000000\" rasterYSize=\"4000000\"><SRS>EPSG:4326</SRS><GeoTransform>10, "
