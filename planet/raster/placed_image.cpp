@@ -66,8 +66,8 @@ Result<int> rawSideOf(const std::filesystem::path& path, const HeightSourceSetti
     std::error_code problem;
     const std::uintmax_t bytes = std::filesystem::file_size(path, problem);
     if (problem) return ioError(fmt::format("{}: {}", path.string(), problem.message()));
-    const auto squareSide =
-        static_cast<std::uintmax_t>(std::llround(std::sqrt(static_cast<double>(bytes) / static_cast<double>(rawSampleBytes))));
+    const auto squareSide = static_cast<std::uintmax_t>(
+        std::llround(std::sqrt(static_cast<double>(bytes) / static_cast<double>(rawSampleBytes))));
     const std::uintmax_t side =
         settings.rawSize ? static_cast<std::uintmax_t>(*settings.rawSize) : squareSide;
     if (side < 2 || side > mostRawSide) {

@@ -50,7 +50,7 @@ TEST_F(HostileRaster, EveryTruncationIsRefusedOrReadWithinItsRange) {
     for (const Format& format : formats) {
         const std::filesystem::path path = folder / format.name;
         test::writeRaster(path, grid(), height,
-                           {.format = format.driver, .type = GDT_Int16, .options = format.options});
+                          {.format = format.driver, .type = GDT_Int16, .options = format.options});
         const auto whole = std::filesystem::file_size(path);
         int refused = 0;
         for (auto bytes = whole; bytes > 0; bytes -= std::min(bytes, whole / 40 + 1)) {

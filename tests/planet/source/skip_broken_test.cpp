@@ -23,7 +23,7 @@ protected:
     SkipBroken() {
         for (int i = 0; i < 14; ++i) {
             test::writeRaster(tile(i), {4326, 20, 20, 10 + 0.2 * i, 45, 0.01},
-                               [i](double, double) { return 100 + i; });
+                              [i](double, double) { return 100 + i; });
         }
         settings.skipBroken = true;
     }
@@ -57,7 +57,7 @@ TEST_F(SkipBroken, FilesThatCannotBeOpenedOrReadAreLeftOut) {
 TEST_F(SkipBroken, BrokenTileGivesNoHeightsToTheRange) {
     // The tile at the end is the highest, and its first block can be read.
     test::writeRaster(tile(13), {4326, 600, 600, 20, 45, 0.01}, [](double, double) { return 5000; },
-                       {.options = {"TILED=YES", "BLOCKXSIZE=256", "BLOCKYSIZE=256"}});
+                      {.options = {"TILED=YES", "BLOCKXSIZE=256", "BLOCKYSIZE=256"}});
     truncate(13);
     const HeightSource source = mustOpen(folder / "*.tif", settings);
     EXPECT_EQ(source.maxM, 112);
@@ -66,7 +66,7 @@ TEST_F(SkipBroken, BrokenTileGivesNoHeightsToTheRange) {
 
 TEST_F(SkipBroken, UnknownReferenceSystemIsLeftOut) {
     test::writeRaster(tile(3), {4326, 20, 20, 10, 45, 0.01}, [](double, double) { return 1; },
-                       {.hasCrs = false});
+                      {.hasCrs = false});
     const HeightSource source = mustOpen(folder / "*.tif", settings);
     EXPECT_THAT(source.skipped, ElementsAre(HasSubstr("tile03.tif: has no coordinate reference system")));
     EXPECT_TRUE(source.description.ends_with(", 1 file skipped")) << source.description;
