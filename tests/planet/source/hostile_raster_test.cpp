@@ -85,7 +85,6 @@ TEST_F(HostileRaster, DimensionsThatAFileCannotHoldAreRefused) {
         EXPECT_THAT(asciiGrid(columns, rows),
                     AnyOf(HasSubstr("is not a readable raster"), HasSubstr("samples")));
 
-    const test::SampleGrid place = grid();
     writeBytes(folder / "b.bil", "12");
     writeBytes(folder / "b.hdr",
                "NCOLS 4000000\nNROWS 4000000\nNBITS 16\nULXMAP 10\nULYMAP 45\nXDIM 0.00001\nYDIM 0.00001\n");

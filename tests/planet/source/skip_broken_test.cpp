@@ -10,12 +10,11 @@
 namespace planet {
 namespace {
 
+using test::finest;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-constexpr int finest = 1 << 22;
 
 // A row of 14 tiles on one grid, 0.2 degrees wide each. Tile i has the height 100 + i.
 class SkipBroken : public testing::Test {

@@ -17,10 +17,9 @@
 namespace planet {
 namespace {
 
+using test::finest;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr int finest = 1 << 22;
 
 // A folder with two rasters of 20 x 20 samples beside each other, at 100 m and 200 m, and one of them outside of it.
 class Vrt : public testing::Test {
