@@ -125,8 +125,8 @@ TEST_F(Vrt, NestedVrtIsRefused) {
 
 TEST_F(Vrt, AnythingButAPlainMosaicIsRefused) {
     const std::string good = source("tiles/west.tif", 0);
-    const auto refused = [](const std::string& what, const std::string& in) {
-        return AllOf(HasSubstr(fmt::format("has an {} in {}; expected a plain mosaic", what, in)),
+    const auto refused = [](const std::string& what, const std::string& element) {
+        return AllOf(HasSubstr(fmt::format("has an {} in {}; expected a plain mosaic", what, element)),
                      HasSubstr("gdalbuildvrt"));
     };
     EXPECT_THAT(errorOfXml(dataSet(good, "", "", " subClass=\"VRTWarpedDataset\"")),
