@@ -1,7 +1,6 @@
 #include "app/base/text.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,15 +20,6 @@ std::string threeDigits(double value) {
 }
 
 }  // namespace
-
-bool isUtf8(std::string_view text) {
-    try {
-        nlohmann::json(text).dump();  // throws on text that is not UTF-8
-        return true;
-    } catch (const nlohmann::json::exception&) {
-        return false;
-    }
-}
 
 std::string sourceName(const std::filesystem::path& source) {
     if (!planet::isTerrainText(source)) {

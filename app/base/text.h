@@ -10,9 +10,6 @@
 
 namespace worldy {
 
-// Returns true if the text is well-formed UTF-8, as TOML requires.
-bool isUtf8(std::string_view text);
-
 // Returns the short name of a source: "elevation.tif", "elevation.tif with detail", "a.tif and 2
 // more", "noise:ridged,seed=7".
 std::string sourceName(const std::filesystem::path& source);

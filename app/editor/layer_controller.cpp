@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/base/places.h"
-#include "app/base/text.h"
+#include "app/base/utf8.h"
 #include "app/data/write_check.h"
 #include "app/editor/overloaded.h"
 #include "app/editor/presets.h"

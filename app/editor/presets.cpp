@@ -7,7 +7,7 @@
 
 #include "app/base/output_file.h"
 #include "app/base/places.h"
-#include "app/base/text.h"
+#include "app/base/utf8.h"
 #include "app/data/write_check.h"
 
 namespace worldy {

@@ -14,7 +14,7 @@
 #include <new>
 #include <set>
 
-#include "app/base/text.h"
+#include "app/base/utf8.h"
 #include "app/settings/setting_value.h"
 #include "app/settings/settings_schema.h"
 #include "app/settings/settings_text.h"

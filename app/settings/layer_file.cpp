@@ -12,8 +12,8 @@
 #include "app/base/colour_text.h"
 #include "app/base/output_file.h"
 #include "app/base/places.h"
-#include "app/base/text.h"
 #include "app/base/toml_file.h"
+#include "app/base/utf8.h"
 
 namespace worldy {
 

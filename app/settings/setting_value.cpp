@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "app/base/colour_text.h"
-#include "app/base/text.h"
 #include "app/base/toml_file.h"
+#include "app/base/utf8.h"
 #include "app/settings/layer_file.h"
 
 namespace worldy {
