@@ -69,6 +69,14 @@ void prepareGdal() {
     });
 }
 
+bool isFileOf(const char* const* drivers, const std::filesystem::path& path) {
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) return false;
+    prepareGdal();
+    const QuietErrors quiet;
+    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, drivers, nullptr) != nullptr;
+}
+
 }  // namespace
 
 DataSet openDataSet(const std::string& name, bool isVrt) {
@@ -78,18 +86,11 @@ DataSet openDataSet(const std::string& name, bool isVrt) {
 }
 
 bool isGdalRaster(const std::filesystem::path& path) {
-    std::error_code problem;
-    if (!std::filesystem::is_regular_file(path, problem)) return false;
-    prepareGdal();
-    const QuietErrors quiet;
-    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, formats.data(), nullptr) != nullptr ||
-           GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, vrtOnly.data(), nullptr) != nullptr;
+    return isFileOf(formats.data(), path) || isFileOf(vrtOnly.data(), path);
 }
 
 bool isVrtFile(const std::filesystem::path& path) {
-    if (!isGdalRaster(path)) return false;
-    const QuietErrors quiet;
-    return GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, vrtOnly.data(), nullptr) != nullptr;
+    return isFileOf(vrtOnly.data(), path);
 }
 
 }  // namespace planet

@@ -24,7 +24,7 @@ public:
                                                       const HeightSourceSettings& settings);
     ~GdalRaster() override;
 
-    // What GDAL opens: the path, or the text of a VRT (vrt_file.h).
+    // Returns the name that GDAL opens: the path or, for a VRT, its checked text (vrt_file.h).
     const std::string& gdalName() const { return gdalName_; }
     bool isVrt() const { return isVrt_; }
 

@@ -33,6 +33,8 @@ struct GridReduction {
     auto operator<=>(const GridReduction&) const = default;
 };
 
+inline constexpr std::size_t mostRasters = 1u << 20;  // in all mosaics of a source
+
 // Several threads may read at once.
 class RasterMosaic {
 public:
@@ -42,7 +44,7 @@ public:
     };
 
     // Returns the fewest mosaics that hold all rasters, each on the grid of its first raster. The rasters keep
-    // their order in a mosaic. At most 2^20 rasters.
+    // their order in a mosaic. At most mostRasters.
     static Result<std::vector<RasterMosaic>> join(const std::vector<std::shared_ptr<const Raster>>& rasters,
                                                   const std::shared_ptr<HeightBlockCache>& cache);
 

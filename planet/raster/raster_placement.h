@@ -1,6 +1,6 @@
-// Where the samples of a georeferenced raster lie on the planet, by PROJ. Geodetic latitude and longitude of
-// WGS 84 are taken as those of the sphere, unchanged. A body other than the Earth has its own. Internal to
-// the library.
+// Places the samples of a georeferenced raster on the planet, with PROJ. The geodetic latitude and longitude of
+// WGS 84 are taken unchanged as those of the sphere; a raster of another body uses that body's own. Internal
+// to the library.
 #pragma once
 
 #include <array>

@@ -17,7 +17,7 @@ namespace planet {
 // its samples are. Copies share the cache.
 class RimDistance {
 public:
-    // What bounds the coverage: only the edges of tiles, or samples without a height too.
+    // The coverage ends at the edges of tiles, or also at samples without a height.
     enum class Rims : std::uint8_t { Tiles, TilesAndVoids };
 
     // area: must outlive this. reachRad: (0, 1].

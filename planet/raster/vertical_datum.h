@@ -12,7 +12,7 @@
 
 namespace planet {
 
-// What heights are measured from.
+// The surface that heights are measured from.
 enum class VerticalDatum : std::uint8_t {
     Ellipsoid,  // the ellipsoid of WGS 84
     Egm96,      // a geoid
@@ -23,9 +23,9 @@ enum class VerticalDatum : std::uint8_t {
 std::optional<VerticalDatum> verticalDatumNamed(std::string_view name);
 std::string_view nameOf(VerticalDatum datum);
 
-// What is added to heights above a datum to make them heights above another. A geoid lies N above the ellipsoid, so a
-// height above it is H = h - N, where h is the height above the ellipsoid, and the shift is N(from) - N(to). Copies
-// share the grids. Any thread.
+// Computes the shift that turns heights above one datum into heights above another when it is added to them. A geoid
+// lies N above the ellipsoid, so a height above it is H = h - N, where h is the height above the ellipsoid, and the
+// shift is N(from) - N(to). Copies share the grids. Any thread.
 class DatumShift {
 public:
     // Opens the grids in PROJ's folders. The Error names a missing grid, and where PROJ looks for it.

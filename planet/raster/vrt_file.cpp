@@ -30,7 +30,7 @@ struct XmlDestroyer {
 };
 using Xml = std::unique_ptr<CPLXMLNode, XmlDestroyer>;
 
-// What an element may have.
+// Lists the attributes and children that an element may have.
 struct VrtElement {
     std::string_view name;
     std::span<const std::string_view> attributes;

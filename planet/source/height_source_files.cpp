@@ -19,6 +19,7 @@
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/terrain.h"
+#include "planet/source/toml_file.h"
 #include "planet/source/world_file.h"
 
 namespace planet {
@@ -139,6 +140,7 @@ bool isWorldFile(const std::filesystem::path& path) {
     if (path.extension() != ".toml") return false;
     std::error_code problem;
     if (!std::filesystem::is_regular_file(path, problem)) return false;
+    if (std::filesystem::file_size(path, problem) > mostTomlBytes) return false;
     std::ifstream stream(path);
     for (std::string line; std::getline(stream, line);) {
         const std::size_t first = line.find_first_not_of(" \t");
@@ -275,7 +277,10 @@ HeightSourceFiles heightSourceFiles(const std::filesystem::path& path) {
 }
 
 bool heightSourceExists(const std::filesystem::path& path) {
+    // A panel asks this in every frame, so neither a world file nor what lies beside the files of a pattern is read.
     if (isTerrainText(path)) return terrainExists(path);
+    if (isWorldFile(path)) return true;
+    if (isFilePattern(path)) return !filesOfPattern(path).empty();
     return !path.empty() && path.extension() != ".chk" && !heightSourceFiles(path).files.empty();
 }
 

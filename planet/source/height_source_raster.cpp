@@ -1,5 +1,5 @@
-// Samples georeferenced rasters of any projection: one file, or several that are listed by a pattern. Rasters on
-// one grid are joined; of those on different grids, the finest lies on top.
+// Samples georeferenced rasters of any projection: one file, or several that a pattern lists. Rasters on one grid
+// are joined; where rasters of different grids overlap, the finest lies on top.
 
 #include <fmt/format.h>
 
@@ -23,8 +23,7 @@ namespace planet {
 
 namespace {
 
-constexpr int rasterPieceSide = 65;  // samples per side of a piece of a tile
-constexpr std::size_t mostRasters = 1u << 20;
+constexpr int rasterPieceSide = 65;    // samples per side of a piece of a tile
 constexpr std::size_t mostNamed = 10;  // broken files in a message
 
 struct Rasters {

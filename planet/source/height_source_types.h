@@ -52,7 +52,7 @@ struct HeightSource {
     // about it. 0 and empty if the faces agree.
     int seamEdges = 0;
     std::string notice{};
-    // What was left out because of HeightSourceSettings::skipBroken: a message for each file.
+    // A message for each file that was left out because of HeightSourceSettings::skipBroken.
     std::vector<std::string> skipped{};
 
     // Returns the smallest power of two of cells along a face that loses no data under this square of its

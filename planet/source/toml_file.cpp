@@ -10,8 +10,6 @@ namespace planet {
 
 namespace {
 
-constexpr std::uintmax_t mostTomlBytes = 16u << 20;
-
 std::string wanted(std::string_view kind, const NumberRange& range) {
     return fmt::format("expected {} in {}", kind, textOf(range));
 }

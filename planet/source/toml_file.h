@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -11,13 +12,15 @@
 
 namespace planet {
 
+inline constexpr std::uintmax_t mostTomlBytes = 16u << 20;  // of a file
+
 struct NumberRange {
     double min = 0;
     double max = 0;
     std::string_view unit;  // "px"; may be empty
 };
 
-// Reads a file of at most 16 MiB.
+// Reads a file of at most mostTomlBytes.
 Result<toml::table> parseTomlFile(const std::filesystem::path& path);
 // Parses text. place stands for the file name in errors.
 Result<toml::table> parseTomlText(std::string_view text, const std::filesystem::path& place);

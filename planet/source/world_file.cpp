@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "planet/base/try.h"
+#include "planet/raster/raster_mosaic.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/toml_file.h"
@@ -17,7 +18,6 @@ namespace planet {
 namespace {
 
 constexpr std::size_t mostLayers = 1000;
-constexpr std::size_t mostFiles = 1u << 20;
 
 // A key of a layer, and how to read it.
 struct LayerKey {
@@ -328,9 +328,9 @@ Result<std::vector<std::filesystem::path>> filesOfLayer(const WorldLayer& layer)
         }
         files.push_back(named);
     }
-    if (files.size() <= mostFiles) return files;
+    if (files.size() <= mostRasters) return files;
     return badInput(
-        fmt::format("{}: has {} files; expected at most {}", layer.name, files.size(), mostFiles));
+        fmt::format("{}: has {} files; expected at most {}", layer.name, files.size(), mostRasters));
 }
 
 }  // namespace planet

@@ -15,18 +15,18 @@
 
 namespace planet {
 
-// How a layer joins what lies under it.
+// Says how a layer joins the heights of the layers under it.
 enum class LayerJoin : std::uint8_t {
     Replace,  // its heights count
     Max,      // the higher one counts
     Add       // its heights are added
 };
 
-// What the samples without a height of a raster show.
+// Says how a layer shows samples of a raster that have no height.
 enum class LayerVoids : std::uint8_t {
-    Below,  // what lies under the layer
-    Fill,   // heights interpolated from around them
-    Height  // voidM
+    Below,  // the layers under it show through
+    Fill,   // their heights are interpolated from those around them
+    Height  // they have the height voidM
 };
 
 struct WorldLayer {
@@ -42,7 +42,7 @@ struct WorldLayer {
     double scale = 1;        // height = offsetM + scale * the height that the files say; magnitude (0, 1e6]
     double offsetM = 0;      // magnitude at most 1e6
     bool hasOffset = false;  // the file gives offsetM
-    // What the heights of the files are measured from, if the world file says what the planet's are measured from.
+    // The datum of the files' heights. It is set only if the world file sets the planet's datum.
     std::optional<VerticalDatum> datum;
     std::optional<ImagePlace> place;  // of the one file, which has no position of its own
     std::optional<int> rawSize;       // only with place: of a raw file, samples per side
@@ -54,7 +54,7 @@ struct WorldFile {
     std::vector<WorldLayer> layers;      // at least one; the first lies at the bottom
     double radiusM = earthRadiusM;       // of the planet, for widths in metres; [1, 1e9]
     double fillM = 0;                    // the height where no layer has one, metres; magnitude at most 1e6
-    std::optional<VerticalDatum> datum;  // what the planet's heights are measured from
+    std::optional<VerticalDatum> datum;  // of the planet's heights
 };
 
 // Reads a world file. The Error names the file, the line, the key and the expected value.

@@ -37,7 +37,7 @@ struct RasterPart {
     std::optional<RimDistance> rim;
 };
 
-// One step of a world: what joins the heights that were made so far.
+// A layer, or the rasters of a layer that lie on one grid, which joins the heights of the parts before it.
 struct WorldPart {
     WorldLayer layer;
     std::optional<DatumShift> shift;  // of the layer's heights to the planet's datum
@@ -165,7 +165,7 @@ int finestCellsIn(const World& world, const ChunkId& square) {
     return cells;
 }
 
-// What a source of heights tells of itself besides its heights.
+// The range, the resolution and the sample counts of a source of heights.
 struct Extent {
     double minM = 0;
     double maxM = 0;
@@ -183,7 +183,7 @@ Extent extentOf(const HeightSource& source) {
     return {source.minM, source.maxM, source.naturalFaceSize - 1, source.sampleCount, source.missingCount};
 }
 
-// A world that is being made, with what it tells of itself so far.
+// Makes a world from its layers, and keeps track of its extent.
 class WorldBuilder {
 public:
     WorldBuilder(const WorldFile& file, const HeightSourceSettings& settings)
@@ -288,7 +288,7 @@ private:
 
     void addAreas(const WorldLayer& layer, RasterAreas opened) {
         skipped_.insert(skipped_.end(), opened.skipped.begin(), opened.skipped.end());
-        // Of rasters on different grids, the finest lies on top.
+        // The finest rasters come first and must lie on top, so they are added last.
         std::ranges::reverse(opened.areas);
         for (RasterArea& area : opened.areas) {
             widen(layer, extentOf(area));

@@ -11,13 +11,12 @@
 namespace planet {
 namespace {
 
+using test::finest;
 using test::gridAround;
 using test::SampleGrid;
 using test::writeRaster;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-constexpr int finestCells = 1 << 22;
 
 // A folder with a plain at 300 m around 10 E, 45 N, and a smaller one at 700 m in its middle with a void of 10 x 10
 // samples.
@@ -50,10 +49,10 @@ constexpr const char* plainAndMesa =
 
 TEST_F(WorldSource, UpperLayerReplacesTheLowerOne) {
     const HeightSource world = worldOf(std::string("fill_m = -50\n") + plainAndMesa);
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45.05, 10), 700);
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45.5, 10), 300);
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 47, 10), -50);
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45, 10), 300) << "the void shows what lies under it";
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45.05, 10), 700);
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45.5, 10), 300);
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 47, 10), -50);
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, 10), 300) << "the void shows what lies under it";
     EXPECT_EQ(world.minM, -50);
     EXPECT_EQ(world.maxM, 700);
     EXPECT_EQ(world.description, "world.toml, 2 layers");
@@ -62,7 +61,7 @@ TEST_F(WorldSource, UpperLayerReplacesTheLowerOne) {
 
 TEST_F(WorldSource, LayersJoinAsTheySay) {
     const auto at = [&](const std::string& join) {
-        return sampledNear(worldOf(plainAndMesa + join), finestCells, 45.05, 10);
+        return sampledNear(worldOf(plainAndMesa + join), finest, 45.05, 10);
     };
     EXPECT_FLOAT_EQ(at("join = \"max\""), 700);
     EXPECT_FLOAT_EQ(at("join = \"max\"\noffset_m = -500"), 300);
@@ -76,7 +75,7 @@ TEST_F(WorldSource, LayersJoinAsTheySay) {
 
 TEST_F(WorldSource, VoidsShowWhatTheirLayerSays) {
     const auto at = [&](const std::string& voids) {
-        return sampledNear(worldOf(plainAndMesa + voids), finestCells, 45, 10);
+        return sampledNear(worldOf(plainAndMesa + voids), finest, 45, 10);
     };
     EXPECT_FLOAT_EQ(at("voids = \"below\""), 300);
     EXPECT_FLOAT_EQ(at("voids = \"fill\""), 700);
@@ -98,20 +97,19 @@ TEST_F(WorldSource, FilledVoidsContinueASlope) {
     // The void is 120 m high from west to east. What fills it has no step at its rim and follows the slope.
     for (double east = -0.024; east <= 0.024; east += 0.001) {
         const double longitude = 10 + east;
-        EXPECT_NEAR(sampledNear(world, finestCells, 45.0011, longitude), slope(longitude, 45.0011), 40)
+        EXPECT_NEAR(sampledNear(world, finest, 45.0011, longitude), slope(longitude, 45.0011), 40)
             << longitude;
     }
-    EXPECT_NEAR(sampledNear(world, finestCells, 45, 10 - 0.0195),
-                sampledNear(world, finestCells, 45, 10 - 0.0215), 20);
+    EXPECT_NEAR(sampledNear(world, finest, 45, 10 - 0.0195), sampledNear(world, finest, 45, 10 - 0.0215), 20);
 }
 
 // The largest step between places a tenth of a sample apart, along a line from the middle of the mesa eastwards over
 // its rim.
 float largestStep(const HeightSource& world, double fromDeg, double toDeg, double stepDeg) {
     float largest = 0;
-    float before = sampledNear(world, finestCells, 45.05, fromDeg);
+    float before = sampledNear(world, finest, 45.05, fromDeg);
     for (double longitude = fromDeg + stepDeg; longitude < toDeg; longitude += stepDeg) {
-        const float height = sampledNear(world, finestCells, 45.05, longitude);
+        const float height = sampledNear(world, finest, 45.05, longitude);
         largest = std::max(largest, std::abs(height - before));
         before = height;
     }
@@ -122,22 +120,22 @@ TEST_F(WorldSource, FeatherLeavesNoStepAtARim) {
     // The rim lies at 10.101 E, and the feather is 4 km wide: 0.0509 degrees of longitude at this latitude.
     EXPECT_GT(largestStep(worldOf(plainAndMesa), 10.06, 10.12, 0.0002), 399) << "without it there is a step";
     const HeightSource world = worldOf(std::string(plainAndMesa) + "feather_m = 4000\nvoids = \"fill\"\n");
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45.05, 10.045), 700);
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45.05, 10.103), 300);
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45, 10.012), 700) << "a void that is filled has no rim";
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45.05, 10.045), 700);
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45.05, 10.103), 300);
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, 10.012), 700) << "a void that is filled has no rim";
     // A blend of 400 m by 3 t^2 - 2 t^3 is steepest in its middle, with 1.5 times its mean slope.
     EXPECT_LT(largestStep(world, 10.04, 10.12, 0.0002), 1.2 * 1.5 * 400 * 0.0002 / 0.0509);
-    EXPECT_NEAR(sampledNear(world, finestCells, 45.05, 10.101 - 0.0509 / 2), 500, 30);
+    EXPECT_NEAR(sampledNear(world, finest, 45.05, 10.101 - 0.0509 / 2), 500, 30);
 }
 
 TEST_F(WorldSource, FeatherOfAVoidLeavesNoStep) {
     const HeightSource world = worldOf(std::string(plainAndMesa) + "feather_m = 1000\n");
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45, 10), 300);
-    EXPECT_FLOAT_EQ(sampledNear(world, finestCells, 45, 10.04), 700);
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, 10), 300);
+    EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, 10.04), 700);
     float largest = 0;
     for (double longitude = 10; longitude < 10.04; longitude += 0.0002) {
-        largest = std::max(largest, std::abs(sampledNear(world, finestCells, 45, longitude + 0.0002) -
-                                             sampledNear(world, finestCells, 45, longitude)));
+        largest = std::max(largest, std::abs(sampledNear(world, finest, 45, longitude + 0.0002) -
+                                             sampledNear(world, finest, 45, longitude)));
     }
     EXPECT_LT(largest, 1.5 * 1.5 * 400 * 0.0002 / 0.0127);
 }
@@ -170,8 +168,8 @@ TEST_F(WorldSource, EarthWithAnInsetOfTheAndes) {
                             data, data));
     const HeightSource earth = mustOpen(data + "earth/elevation.tif");
     const HeightSource andes = mustOpen(data + "regions/S33W071.tif");
-    EXPECT_EQ(sampledNear(world, finestCells, -32.5, -70.5), sampledNear(andes, finestCells, -32.5, -70.5));
-    EXPECT_EQ(sampledNear(world, finestCells, -34, -70.5), sampledNear(earth, finestCells, -34, -70.5));
+    EXPECT_EQ(sampledNear(world, finest, -32.5, -70.5), sampledNear(andes, finest, -32.5, -70.5));
+    EXPECT_EQ(sampledNear(world, finest, -34, -70.5), sampledNear(earth, finest, -34, -70.5));
     EXPECT_GT(world.maxM, 6849);
 }
 

@@ -11,7 +11,7 @@
 namespace planet::gl {
 namespace {
 
-// Where a leaf lies beside chunks that are deeper.
+// Tests that seams between a leaf and deeper chunks show no cracks.
 struct Rim {
     glm::dvec3 placeM{0, 0, 0};
     int levels = 0;
