@@ -71,7 +71,7 @@ Result<int> rawSideOf(const std::filesystem::path& path, const HeightSourceSetti
     const std::uintmax_t side =
         settings.rawSize ? static_cast<std::uintmax_t>(*settings.rawSize) : squareSide;
     if (side < 2 || side > mostRawSide) {
-        return badInput(fmt::format("{}: is {} samples a side; expected [2, {}] samples of 16 bits",
+        return badInput(fmt::format("{}: is {} samples per side; expected [2, {}] samples of 16 bits",
                                     path.string(), side, mostRawSide));
     }
     if (side * side * rawSampleBytes == bytes) return static_cast<int>(side);

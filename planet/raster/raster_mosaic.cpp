@@ -15,6 +15,9 @@ namespace {
 
 constexpr double offGrid = 0.01;           // samples by which a raster of a grid may lie off it
 constexpr std::int64_t reducedSide = 128;  // samples per side of a cached block of a reduced resolution
+constexpr int mostHalvings = 2 * 22;       // of both axes together
+constexpr std::size_t leastReducedBytes =
+    4 * reducedSide * reducedSide * sizeof(float);  // cached of a resolution
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 std::int64_t floorDivided(std::int64_t value, std::int64_t by) {
@@ -118,8 +121,18 @@ const Raster& firstOnGrid(const std::vector<RasterPtr>& rasters) {
 
 }  // namespace
 
-RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement,
-                           std::shared_ptr<HeightBlockCache> cache, int number)
+MosaicCache::MosaicCache(std::size_t bytes) {
+    byHalvings_.emplace_back(bytes / 2);
+    for (int halvings = 1; halvings <= mostHalvings; ++halvings)
+        byHalvings_.emplace_back(std::max(leastReducedBytes, (bytes / 2) >> halvings));
+}
+
+HeightBlockCache& MosaicCache::of(const GridReduction& reduction) {
+    return byHalvings_[static_cast<std::size_t>(reduction.columnsLog2 + reduction.rowsLog2)];
+}
+
+RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<MosaicCache> cache,
+                           int number)
     : placement_(std::move(placement)), layout_(first.layout()), cache_(std::move(cache)), number_(number) {
     const double around = placement_.columnsAround();
     // A header that lies can put the poles where the rows do not fit in integers.
@@ -130,7 +143,7 @@ RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement,
 }
 
 Result<std::vector<RasterMosaic>> RasterMosaic::join(const std::vector<RasterPtr>& rasters,
-                                                     const std::shared_ptr<HeightBlockCache>& cache) {
+                                                     const std::shared_ptr<MosaicCache>& cache) {
     std::vector<RasterMosaic> mosaics;
     for (const std::vector<RasterPtr>& grid : sortedByGrid(rasters)) {
         const Raster& first = firstOnGrid(grid);
@@ -180,8 +193,9 @@ Result<void> RasterMosaic::readTile(std::size_t tile, const GridRect& rect, cons
              x * width < wanted.column + wanted.columns - rect.column; ++x) {
             const int blockX = static_cast<int>(x);
             const int blockY = static_cast<int>(y);
-            TRY_ASSIGN(const auto block,
-                       cache_->get({key, blockX, blockY}, [&] { return raster.readBlock(blockX, blockY); }));
+            TRY_ASSIGN(const auto block, cache_->of({}).get({key, blockX, blockY}, [&] {
+                return raster.readBlock(blockX, blockY);
+            }));
             const GridRect blockRect{rect.column + x * width, rect.row + y * height,
                                      std::min(width, rect.columns - x * width),
                                      std::min(height, rect.rows - y * height)};
@@ -265,6 +279,17 @@ Result<void> RasterMosaic::readSamples(const GridRect& rect, std::span<float> ou
     return {};
 }
 
+std::vector<GridRect> RasterMosaic::tilesIn(const GridRect& rect) const {
+    std::vector<GridRect> places;
+    const Result<void> visited = forTilesIn(rect, [&](std::size_t, const GridRect& place) -> Result<void> {
+        places.push_back(place);
+        return {};
+    });
+    assert(visited);
+    static_cast<void>(visited);
+    return places;
+}
+
 void RasterMosaic::markTiles(const GridRect& rect, std::span<float> out) const {
     assert(out.size() == countOf(rect));
     std::ranges::fill(out, missing);
@@ -272,12 +297,7 @@ void RasterMosaic::markTiles(const GridRect& rect, std::span<float> out) const {
         for (std::int64_t row = part.row; row < part.row + part.rows; ++row)
             std::fill_n(&out[indexIn(rect, part.column, row)], part.columns, 0.0f);
     };
-    const Result<void> marked = forTilesIn(rect, [&](std::size_t, const GridRect& place) -> Result<void> {
-        mark(sharedBy(place, rect));
-        return {};
-    });
-    assert(marked);
-    static_cast<void>(marked);
+    for (const GridRect& place : tilesIn(rect)) mark(sharedBy(place, rect));
     if (period_ == 0) return;
     const double firstPole = std::min(placement_.northRow(), placement_.southRow());
     const double lastPole = std::max(placement_.northRow(), placement_.southRow());
@@ -330,9 +350,10 @@ Result<void> RasterMosaic::read(GridReduction reduction, const GridRect& rect, s
                                 y * reducedSide << reduction.rowsLog2, reducedSide << reduction.columnsLog2,
                                 reducedSide << reduction.rowsLog2};
             if (!mayHaveHeightsIn(full)) continue;
-            TRY_ASSIGN(const auto block,
-                       cache_->get({key, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)},
-                                   [&] { return reducedBlock(reduction, x, y); }));
+            TRY_ASSIGN(
+                const auto block,
+                cache_->of(reduction).get({key, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)},
+                                          [&] { return reducedBlock(reduction, x, y); }));
             copyHeights({x * reducedSide, y * reducedSide, reducedSide, reducedSide}, *block, rect, out);
         }
     }

@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -33,6 +34,19 @@ struct GridReduction {
     auto operator<=>(const GridReduction&) const = default;
 };
 
+// The blocks of mosaics in memory. The samples and each number of halvings have a limit of their own, so that reading
+// fine blocks drops no coarse ones, which take many fine ones to make again. Thread-safe.
+class MosaicCache {
+public:
+    // bytes: the limit, to which the coarsest resolutions add at most 10 MB.
+    explicit MosaicCache(std::size_t bytes);
+
+    HeightBlockCache& of(const GridReduction& reduction);
+
+private:
+    std::deque<HeightBlockCache> byHalvings_;
+};
+
 inline constexpr std::size_t mostRasters = 1u << 20;  // in all mosaics of a source
 
 // Several threads may read at once.
@@ -46,7 +60,7 @@ public:
     // Returns the fewest mosaics that hold all rasters, each on the grid of its first raster. The rasters keep
     // their order in a mosaic. At most mostRasters.
     static Result<std::vector<RasterMosaic>> join(const std::vector<std::shared_ptr<const Raster>>& rasters,
-                                                  const std::shared_ptr<HeightBlockCache>& cache);
+                                                  const std::shared_ptr<MosaicCache>& cache);
 
     const std::vector<Tile>& tiles() const { return tiles_; }
     const RasterPlacement& placement() const { return placement_; }
@@ -58,12 +72,15 @@ public:
     // with a height there counts. Beyond a pole, a grid that repeats goes on half a turn further.
     Result<void> read(GridReduction reduction, const GridRect& rect, std::span<float> out) const;
 
+    // Returns the places of the tiles that touch a rectangle, in each turn in which they do.
+    std::vector<GridRect> tilesIn(const GridRect& rect) const;
+
     // Sets the samples of a rectangle to 0 where a tile lies, whether it has a height there or not, and beyond a pole;
     // to NaN elsewhere.
     void markTiles(const GridRect& rect, std::span<float> out) const;
 
 private:
-    RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<HeightBlockCache> cache,
+    RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<MosaicCache> cache,
                  int number);
     void add(const std::shared_ptr<const Raster>& raster);
     void sortIntoBands();
@@ -79,7 +96,7 @@ private:
 
     RasterPlacement placement_;
     RasterLayout layout_;  // of the first raster
-    std::shared_ptr<HeightBlockCache> cache_;
+    std::shared_ptr<MosaicCache> cache_;
     int number_ = 0;  // distinguishes the mosaics that share the cache
     std::vector<Tile> tiles_;
     GridRect bounds_;

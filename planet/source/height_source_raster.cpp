@@ -117,7 +117,7 @@ Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters, std::
                                          std::vector<BrokenFile>& broken) {
     std::vector<std::shared_ptr<const Raster>> whole;
     for (const OpenRaster& raster : rasters) whole.push_back(raster.raster);
-    TRY_ASSIGN(auto mosaics, RasterMosaic::join(whole, std::make_shared<HeightBlockCache>(cacheBytes)));
+    TRY_ASSIGN(auto mosaics, RasterMosaic::join(whole, std::make_shared<MosaicCache>(cacheBytes)));
     std::vector<RasterArea> areas;
     for (RasterMosaic& mosaic : mosaics) {
         AreaSurvey survey = surveyArea(std::move(mosaic));

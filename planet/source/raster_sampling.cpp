@@ -81,6 +81,34 @@ bool isOnGrid(const RasterMosaic& mosaic, double columnInTurn, double row) {
            fromTop <= static_cast<double>(bounds.rows);  // false for NaN
 }
 
+// Keeps the places whose nearest sample lies on a tile. The rectangle around tiles that lie apart can be a continent.
+void keepPlacesOnTiles(const RasterMosaic& mosaic, PlacesOnGrid& places) {
+    if (mosaic.tiles().size() < 2 || places.index.empty()) return;
+    const auto [left, right] = std::ranges::minmax(places.column);
+    const auto [top, bottom] = std::ranges::minmax(places.row);
+    const std::int64_t firstColumn = std::llround(left);
+    const std::int64_t firstRow = std::llround(top);
+    const std::vector<GridRect> tiles = mosaic.tilesIn(
+        {firstColumn, firstRow, std::llround(right) - firstColumn + 1, std::llround(bottom) - firstRow + 1});
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < places.index.size(); ++i) {
+        const std::int64_t column = std::llround(places.column[i]);
+        const std::int64_t row = std::llround(places.row[i]);
+        const auto holds = [&](const GridRect& tile) {
+            return column >= tile.column && column < tile.column + tile.columns && row >= tile.row &&
+                   row < tile.row + tile.rows;
+        };
+        if (std::ranges::none_of(tiles, holds)) continue;
+        places.index[kept] = places.index[i];
+        places.column[kept] = places.column[i];
+        places.row[kept] = places.row[i];
+        ++kept;
+    }
+    places.index.resize(kept);
+    places.column.resize(kept);
+    places.row.resize(kept);
+}
+
 // Returns how many samples lie in a radian along each axis at each place; nothing if the grid of the planet is finer
 // than the mosaic everywhere.
 std::vector<SampleDensity> densitiesFor(const RasterArea& area, const PiecePlaces& places,
@@ -262,6 +290,7 @@ PlacesOnGrid placesOnGrid(const RasterArea& area, const PiecePlaces& places) {
     all.index.resize(kept);
     all.column.resize(kept);
     all.row.resize(kept);
+    keepPlacesOnTiles(area.mosaic, all);
     return all;
 }
 
@@ -310,13 +339,17 @@ Result<void> fillVoids(const RasterArea& area, const PlacesOnGrid& onGrid, std::
     for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
         float& height = heightsM[onGrid.index[i]];
         if (!std::isnan(height)) continue;
-        double filled = std::numeric_limits<double>::quiet_NaN();
-        for (int halvings = coarsest; halvings >= 0; --halvings) {
+        double sum = 0;
+        double remaining = 1;  // the share that coarser means decide
+        double coarsestM = std::numeric_limits<double>::quiet_NaN();
+        for (int halvings = 0; halvings <= coarsest && remaining > 1e-9; ++halvings) {
             TRY_ASSIGN(const auto known, betweenFour(area.mosaic, halvings, onGrid.column[i], onGrid.row[i]));
             if (known.share <= 0) continue;
-            filled = std::isnan(filled) ? known.heightM : std::lerp(filled, known.heightM, known.share);
+            coarsestM = known.heightM;
+            sum += remaining * known.share * known.heightM;
+            remaining *= 1 - known.share;
         }
-        height = static_cast<float>(filled);
+        height = static_cast<float>(sum + remaining * coarsestM);
     }
     return {};
 }

@@ -28,7 +28,7 @@ struct PiecePlaces {
 };
 PiecePlaces placesOf(const SampleTile& piece);
 
-// The places of a piece that lie on the rectangle of a mosaic, and where on its grid. Columns are those of the turn
+// The places of a piece that lie on a tile of a mosaic, and where on its grid. Columns are those of the turn
 // around the middle of the mosaic.
 struct PlacesOnGrid {
     std::vector<std::size_t> index;  // in the piece, ascending
@@ -42,7 +42,7 @@ Result<void> fillFrom(const RasterArea& area, const PiecePlaces& places, const P
                       std::span<float> heightsM);
 
 // Interpolates the heights that are still NaN from those around them: from means of 2 x 2, 4 x 4, ... samples, the
-// finer ones where they have heights.
+// finer ones where they have heights. Gaps between the tiles are no voids.
 Result<void> fillVoids(const RasterArea& area, const PlacesOnGrid& onGrid, std::span<float> heightsM);
 
 }  // namespace planet

@@ -71,7 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(layout.width > 0 && layout.height > 0 && layout.blockWidth > 0 && layout.blockHeight > 0,
             "a raster has samples");
     if (!isSmall(layout)) return 0;
-    auto mosaics = RasterMosaic::join({*raster}, std::make_shared<HeightBlockCache>(1 << 20));
+    auto mosaics = RasterMosaic::join({*raster}, std::make_shared<MosaicCache>(1 << 20));
     if (!isRead(mosaics)) return 0;
     require(mosaics->size() == 1, "a raster is a mosaic");
     const AreaSurvey survey = surveyArea(std::move(mosaics->front()));

@@ -82,6 +82,24 @@ TEST_F(WorldSource, VoidsShowWhatTheirLayerSays) {
     EXPECT_FLOAT_EQ(at("voids = 12.5"), 12.5);
 }
 
+TEST_F(WorldSource, GapsBetweenTilesOfALayerAreNoVoids) {
+    // Two tiles of one grid, 40 degrees apart.
+    writeRaster(folder / "west.tif", gridAround(4326, -30, 45, 101, 101, 0.01),
+                [](double, double) { return 700; });
+    writeRaster(folder / "east.tif", gridAround(4326, 10, 45, 101, 101, 0.01),
+                [](double, double) { return 900; });
+    for (const std::string voids : {"\"below\"", "\"fill\"", "12.5"}) {
+        const HeightSource world = worldOf(
+            "fill_m = -50\n[[elevation]]\nfiles = [\"west.tif\", \"east.tif\"]\nvoids = " + voids + "\n");
+        EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, -30.4), 700) << voids;
+        EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, 9.6), 900) << voids;
+        EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, -10), -50) << voids;
+        EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, 9.4), -50) << voids;
+        // One piece reaches from one tile over the gap to the other.
+        EXPECT_FLOAT_EQ(sampledNear(world, 64, 45, -10), -50) << voids;
+    }
+}
+
 TEST_F(WorldSource, FilledVoidsContinueASlope) {
     const auto slope = [](double longitude, double latitude) {
         return 1000 + 3000 * (longitude - 10) + 1000 * (latitude - 45);
