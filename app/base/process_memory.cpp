@@ -1,5 +1,6 @@
 #include "app/base/process_memory.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #ifdef __GLIBC__
@@ -28,6 +29,12 @@ std::size_t residentProcessBytes() {
     std::size_t allPages = 0, residentPages = 0;
     if (!(file >> allPages >> residentPages)) return 0;
     return residentPages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::size_t peakProcessBytes() {
+    rusage usage{};
+    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts it in KiB
 }
 
 std::size_t heapBytesInUse() {

@@ -8,6 +8,9 @@ namespace worldy {
 
 std::size_t residentProcessBytes();
 
+// Returns the largest number of bytes that were resident at any time.
+std::size_t peakProcessBytes();
+
 // Returns the bytes allocated from the C library's heap; 0 under a sanitizer with its own allocator.
 std::size_t heapBytesInUse();
 

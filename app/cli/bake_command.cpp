@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/base/message.h"
+#include "app/base/process_memory.h"
 #include "app/base/report.h"
 #include "app/base/text.h"
 #include "app/data/bake_progress.h"
@@ -23,28 +24,40 @@ double bitsPerSample(const planet::BakeReport& report) {
                                      static_cast<double>(report.samples);
 }
 
+// Returns how often each sample of the source's rasters was read, on average; nothing if there are none.
+std::optional<double> readsPerSample(const planet::HeightSource& source) {
+    if (!source.reads) return std::nullopt;
+    const planet::SourceReads reads = source.reads();
+    if (reads.samples == 0) return std::nullopt;
+    return static_cast<double>(reads.read) / static_cast<double>(reads.samples);
+}
+
 void printJson(const planet::HeightSource& source, const BakeOptions& options,
                const planet::BakeReport& report) {
-    const nlohmann::ordered_json json = {{"source", source.description},
-                                         {"output", options.output.string()},
-                                         {"face_size", planet::faceCells(report.shape) + 1},
-                                         {"chunk_size", planet::chunkSize(report.shape)},
-                                         {"level_count", planet::leafLevel(report.shape) + 1},
-                                         {"radius_m", report.shape.radiusM},
-                                         {"quantum_m", report.shape.quantumM},
-                                         {"samples", report.samples},
-                                         {"chunks", report.chunks},
-                                         {"coarsest_leaf_level", report.coarsestLeafLevel},
-                                         {"file_bytes", report.fileBytes},
-                                         {"bits_per_sample", bitsPerSample(report)},
-                                         {"missing_samples", report.missingSamples},
-                                         {"skipped", source.skipped},
-                                         {"root_delta_c_m", report.largestDeltaCM},
-                                         {"root_tight_m", report.largestDeltaTightM},
-                                         {"colour_tiles", report.colourTiles},
-                                         {"colour_bytes", report.colourBytes},
-                                         {"colour_notice", report.colourNotice},
-                                         {"seconds", report.seconds}};
+    const std::optional<double> reads = readsPerSample(source);
+    const nlohmann::ordered_json json = {
+        {"source", source.description},
+        {"output", options.output.string()},
+        {"face_size", planet::faceCells(report.shape) + 1},
+        {"chunk_size", planet::chunkSize(report.shape)},
+        {"level_count", planet::leafLevel(report.shape) + 1},
+        {"radius_m", report.shape.radiusM},
+        {"quantum_m", report.shape.quantumM},
+        {"samples", report.samples},
+        {"chunks", report.chunks},
+        {"coarsest_leaf_level", report.coarsestLeafLevel},
+        {"file_bytes", report.fileBytes},
+        {"bits_per_sample", bitsPerSample(report)},
+        {"missing_samples", report.missingSamples},
+        {"skipped", source.skipped},
+        {"root_delta_c_m", report.largestDeltaCM},
+        {"root_tight_m", report.largestDeltaTightM},
+        {"colour_tiles", report.colourTiles},
+        {"colour_bytes", report.colourBytes},
+        {"colour_notice", report.colourNotice},
+        {"reads_per_sample", reads ? nlohmann::ordered_json(*reads) : nullptr},
+        {"peak_memory_bytes", peakProcessBytes()},
+        {"seconds", report.seconds}};
     fmt::print("{}", jsonText(json));
 }
 
@@ -63,6 +76,12 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
     fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
                bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
                durationText(report.seconds));
+    if (const std::optional<double> reads = readsPerSample(source)) {
+        fmt::print(
+            "each sample of the rasters was read {:.2f} times, the first time for their range; {} of "
+            "memory\n",
+            *reads, bytesText(static_cast<double>(peakProcessBytes())));
+    }
     if (report.colourTiles > 0) {
         fmt::print("{} colour tiles, {}\n", report.colourTiles,
                    bytesText(static_cast<double>(report.colourBytes)));

@@ -119,6 +119,35 @@ std::string problemsText(std::uint64_t count) {
     return fmt::format("{} {}", count, count == 1 ? "problem" : "problems");
 }
 
+double degreesOf(double slope) {
+    return glm::degrees(std::atan(slope));
+}
+
+Json rimsJson(const std::optional<planet::RimReport>& rims) {
+    if (!rims) return nullptr;
+    const planet::SteepestStep& steepest = rims->steepest;
+    return {{"leaves", rims->leaves},
+            {"step_m", steepest.stepM},
+            {"over_m", steepest.overM},
+            {"slope_deg", degreesOf(steepest.slope())},
+            {"chunk", planet::toString(steepest.chunk)},
+            {"latitude_deg", glm::degrees(steepest.place.latitudeRad)},
+            {"longitude_deg", glm::degrees(steepest.place.longitudeRad)},
+            {"level_p999_slope_deg", degreesOf(rims->levelP999Slope)},
+            {"level_largest_slope_deg", degreesOf(rims->levelLargestSlope)}};
+}
+
+void printRims(const FileCommandOptions& options, const planet::RimReport& rims) {
+    const planet::SteepestStep& steepest = rims.steepest;
+    fmt::print(
+        "{}: the steepest step at a rim of finer data is {:.1f} m over {:.1f} m, {:.1f} degrees, at {} in "
+        "chunk {}; of "
+        "all slopes on leaves of its level, 99.9 % are below {:.1f} degrees and the steepest has {:.1f}\n",
+        options.file.string(), steepest.stepM, steepest.overM, degreesOf(steepest.slope()),
+        placeText(glm::degrees(steepest.place.latitudeRad), glm::degrees(steepest.place.longitudeRad)),
+        planet::toString(steepest.chunk), degreesOf(rims.levelP999Slope), degreesOf(rims.levelLargestSlope));
+}
+
 void printVerified(const FileCommandOptions& options, const planet::VerifyReport& report,
                    const planet::ColourVerifyReport& colours) {
     std::vector<std::string> problems = report.problems;
@@ -128,6 +157,7 @@ void printVerified(const FileCommandOptions& options, const planet::VerifyReport
                            {"chunks", report.chunks},
                            {"edges", report.edges},
                            {"leaf_samples", report.leafSamples},
+                           {"rims", rimsJson(report.rims)},
                            {"colour_tiles", colours.tiles},
                            {"colour_edges", colours.edges},
                            {"colour_tiles_compared", colours.compared},
@@ -142,6 +172,7 @@ void printVerified(const FileCommandOptions& options, const planet::VerifyReport
                                : fmt::format("{} samples compared with the source, ", report.leafSamples);
     fmt::print("{}: {} chunks and {} shared edges checked, {}{}\n", options.file.string(), report.chunks,
                report.edges, compared, problemsText(report.problemCount));
+    if (report.rims) printRims(options, *report.rims);
     if (colours.tiles > 0) {
         const std::string comparedTiles =
             options.colour.empty() ? "" : fmt::format("{} compared with the image, ", colours.compared);

@@ -239,6 +239,8 @@ public:
           progress_(progress),
           shape_(file.info().shape),
           total_(file.info().chunks),
+          isSparse_(file.info().chunks < chunkCountOf(shape_)),
+          rims_(shape_),
           tight_(file) {}
 
     Result<VerifyReport> run() {
@@ -252,7 +254,10 @@ public:
             TRY_ASSIGN(const auto unit, visit(*root));
             if (unit) tight_.finish(root->id, *unit, reportProblem());
         }
-        if (report_.problemCount == 0) checkTree();
+        if (report_.problemCount == 0) {
+            checkTree();
+            report_.rims = rims_.report(chunksBesideCoarserOnes());
+        }
         return report_;
     }
 
@@ -280,6 +285,7 @@ private:
         if (!chunk.children.exists()) {
             ++leaves_;
             coarsestLeafLevel_ = std::min<int>(coarsestLeafLevel_, chunk.id.level);
+            if (isSparse_) rims_.add(chunk);
             if (source_ != nullptr) {
                 TRY(compareWithSource(chunk));
             }
@@ -321,6 +327,14 @@ private:
             alone += !liesUnderLeaf(neighbourOf(seen.chunk, seen.edge));
         if (alone > 0)
             problem(fmt::format("{}: {} edges have no chunk on their other side", file_.name(), alone));
+    }
+
+    // Returns the chunks with an edge that no chunk of their level shares. Everything has been read before without a
+    // problem.
+    std::vector<ChunkId> chunksBesideCoarserOnes() const {
+        std::vector<ChunkId> chunks;
+        for (const auto& [key, seen] : openEdges_) chunks.push_back(seen.chunk);
+        return chunks;
     }
 
     // Returns whether a chunk of a coarser level is a leaf at the place of this one. Everything has been read
@@ -451,6 +465,8 @@ private:
     std::array<BlockLocation, faceCount> children_;  // of the roots
     std::uint64_t leaves_ = 0;
     std::uint64_t missed_ = 0;  // chunks with unreadable children
+    bool isSparse_;
+    RimSteps rims_;
     int coarsestLeafLevel_ = maxLevel;
     TightVerifier tight_;
     GeometricErrorScratch scratch_;

@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "planet/bake/rim_steps.h"
 #include "planet/base/result.h"
 #include "planet/format/chunk_file.h"
 #include "planet/source/height_source_types.h"
@@ -45,6 +47,7 @@ struct VerifyReport {
     std::uint64_t problemCount = 0;
     std::uint64_t sourceProblems = 0;   // compared chunks whose heights differ from the source
     std::vector<std::string> problems;  // the first 100, each naming its chunk
+    std::optional<RimReport> rims;      // nothing if all leaves have one level
 };
 
 // Called every few hundred chunks. Returning false cancels.

@@ -252,7 +252,7 @@ AreaSurvey surveyArea(RasterMosaic mosaic) {
             const std::lock_guard lock(mutex);
             if (broken.contains(tileIndex)) return;
         }
-        const Result<std::vector<float>> heights = tile.raster->readBlock(x, y);
+        const Result<std::vector<float>> heights = area.mosaic.readBlock(tileIndex, x, y);
         if (!heights) {
             const std::lock_guard lock(mutex);
             broken.emplace(tileIndex, heights.error());

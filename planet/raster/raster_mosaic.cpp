@@ -178,6 +178,12 @@ void RasterMosaic::sortIntoBands() {
     }
 }
 
+Result<std::vector<float>> RasterMosaic::readBlock(std::size_t tile, int blockX, int blockY) const {
+    TRY_ASSIGN(auto heights, tiles_[tile].raster->readBlock(blockX, blockY));
+    *samplesRead_ += heights.size();
+    return heights;
+}
+
 // Copies the samples of a tile that lie in a rectangle. `rect` is the tile's place, and `target` the rectangle of
 // `out`, in the same turn.
 Result<void> RasterMosaic::readTile(std::size_t tile, const GridRect& rect, const GridRect& target,
@@ -193,9 +199,8 @@ Result<void> RasterMosaic::readTile(std::size_t tile, const GridRect& rect, cons
              x * width < wanted.column + wanted.columns - rect.column; ++x) {
             const int blockX = static_cast<int>(x);
             const int blockY = static_cast<int>(y);
-            TRY_ASSIGN(const auto block, cache_->of({}).get({key, blockX, blockY}, [&] {
-                return raster.readBlock(blockX, blockY);
-            }));
+            TRY_ASSIGN(const auto block, cache_->of({}).get({key, blockX, blockY},
+                                                            [&] { return readBlock(tile, blockX, blockY); }));
             const GridRect blockRect{rect.column + x * width, rect.row + y * height,
                                      std::min(width, rect.columns - x * width),
                                      std::min(height, rect.rows - y * height)};

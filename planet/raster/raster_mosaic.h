@@ -2,6 +2,7 @@
 // heights do not depend on where the tiles meet. Internal to the library.
 #pragma once
 
+#include <atomic>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -72,6 +73,11 @@ public:
     // with a height there counts. Beyond a pole, a grid that repeats goes on half a turn further.
     Result<void> read(GridReduction reduction, const GridRect& rect, std::span<float> out) const;
 
+    // Reads a block of a tile from its file, past the cache: heights as Raster::readBlock returns them.
+    Result<std::vector<float>> readBlock(std::size_t tile, int blockX, int blockY) const;
+    // Returns the number of samples that were read from the files so far.
+    std::uint64_t samplesRead() const { return *samplesRead_; }
+
     // Returns the places of the tiles that touch a rectangle, in each turn in which they do.
     std::vector<GridRect> tilesIn(const GridRect& rect) const;
 
@@ -98,6 +104,8 @@ private:
     RasterLayout layout_;  // of the first raster
     std::shared_ptr<MosaicCache> cache_;
     int number_ = 0;  // distinguishes the mosaics that share the cache
+    std::shared_ptr<std::atomic<std::uint64_t>> samplesRead_ =
+        std::make_shared<std::atomic<std::uint64_t>>(0);
     std::vector<Tile> tiles_;
     GridRect bounds_;
     std::int64_t period_ = 0;

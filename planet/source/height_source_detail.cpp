@@ -202,6 +202,7 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
     result.maxM = source.maxM + detail.limitM;
     result.sampleCount = source.sampleCount;
     result.missingCount = source.missingCount;
+    result.reads = source.reads;
     if (source.finestCells) {
         // Detail refines the finest parts of a source. Elsewhere its octaves are too small to show.
         result.finestCells = [of = source.finestCells, finest = shared->cells,

@@ -205,6 +205,14 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         for (const RasterArea& area : shared->areas) cells = std::max(cells, finestCellsIn(area, square));
         return cells;
     };
+    source.reads = [shared] {
+        SourceReads reads;
+        for (const RasterArea& area : shared->areas) {
+            reads.samples += area.sampleCount;
+            reads.read += area.mosaic.samplesRead();
+        }
+        return reads;
+    };
     source.sample = [shared](const SampleTile& tile, std::span<float> out) {
         return sampleInPieces(tile, rasterPieceSide, out,
                               [&](const SampleTile& piece, float* to, std::size_t stride) {

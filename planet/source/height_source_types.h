@@ -35,6 +35,11 @@ constexpr int filterCellsOf(const SampleTile& tile) {
     return tile.filterCells > 0 ? tile.filterCells : tile.faceCells;
 }
 
+struct SourceReads {
+    std::uint64_t samples = 0;  // in the files
+    std::uint64_t read = 0;     // decoded, a sample as often as it was
+};
+
 // Copies share the open files. Several threads may call sample at once.
 struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
@@ -54,6 +59,10 @@ struct HeightSource {
     std::string notice{};
     // A message for each file that was left out because of HeightSourceSettings::skipBroken.
     std::vector<std::string> skipped{};
+
+    // Returns how often the files of georeferenced rasters were read so far. Null: it is not counted. Several
+    // threads may call it at once.
+    std::function<SourceReads()> reads{};
 
     // Returns the smallest power of two of cells along a face that loses no data under this square of its
     // face, [1, 2^22]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several

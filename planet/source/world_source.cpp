@@ -165,6 +165,22 @@ int finestCellsIn(const World& world, const ChunkId& square) {
     return cells;
 }
 
+SourceReads readsOf(const World& world) {
+    SourceReads reads;
+    for (const WorldPart& part : world.parts) {
+        SourceReads ofPart;
+        if (const auto* const source = std::get_if<HeightSource>(&part.content)) {
+            if (source->reads) ofPart = source->reads();
+        } else {
+            const RasterArea& area = std::get<std::unique_ptr<RasterPart>>(part.content)->area;
+            ofPart = {area.sampleCount, area.mosaic.samplesRead()};
+        }
+        reads.samples += ofPart.samples;
+        reads.read += ofPart.read;
+    }
+    return reads;
+}
+
 // The range, the resolution and the sample counts of a source of heights.
 struct Extent {
     double minM = 0;
@@ -215,6 +231,7 @@ public:
         source.missingCount = extent_.missingCount;
         const std::shared_ptr<const World> world = std::move(world_);
         source.finestCells = [world](const ChunkId& square) { return finestCellsIn(*world, square); };
+        source.reads = [world] { return readsOf(*world); };
         source.sample = [world](const SampleTile& tile, std::span<float> out) {
             return sampleInPieces(tile, worldPieceSide, out,
                                   [&](const SampleTile& piece, float* to, std::size_t stride) {
