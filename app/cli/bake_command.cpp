@@ -153,8 +153,10 @@ planet::Result<void> runBake(const BakeOptions& options) {
         planet::openHeightSource(named->source, options.sourceSettings);
     if (!source) return tl::unexpected(source.error());
     std::optional<planet::ColourSource> colour;
-    if (!options.colour.empty()) {
-        planet::Result<planet::ColourSource> opened = planet::openColourSource(options.colour);
+    const bool hasOwn = options.colour.empty() && planet::hasColourLayers(named->source);
+    if (hasOwn || !options.colour.empty()) {
+        planet::Result<planet::ColourSource> opened =
+            planet::openColourSource(hasOwn ? named->source : options.colour);
         if (!opened) return tl::unexpected(opened.error());
         colour = *std::move(opened);
     }

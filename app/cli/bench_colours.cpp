@@ -60,7 +60,7 @@ Result<planet::ChunkFile> bakeColours(const planet::ColourSource& colours, Colou
 }
 
 Result<void> readUnder(const planet::ChunkFile& file, const planet::TileData& tile) {
-    if (tile.id.level == file.info().colour->leafLevel) return {};
+    if (!tile.children.exists()) return {};
     const auto children = file.readColourChildren(tile.id, tile.children);
     if (!children) return tl::unexpected(children.error());
     for (const planet::TileData& child : *children) {

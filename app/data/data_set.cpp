@@ -11,6 +11,7 @@
 #include "app/data/own_colour.h"
 #include "app/data/worlds.h"
 #include "planet/format/chunk_file.h"
+#include "planet/source/colour_source.h"
 #include "planet/source/height_source.h"
 #include "planet/source/terrain.h"
 
@@ -151,7 +152,9 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
                 .chunkFile = {},
                 .colourImage = ownColourImage(source->source),
                 .settings = source->settings};
-    set.bakedColour = colour.value_or(set.colourImage);
+    // The layers of colour of a world file are baked, and the image beside it is only laid over the planet.
+    const bool hasLayers = planet::hasColourLayers(set.source);
+    set.bakedColour = colour.value_or(hasLayers ? set.source : set.colourImage);
     set.chunkFile = cachedBakeOf(set.source, set.settings, sourceSettings, set.bakedColour);
     set.needsBake = !opensWhole(set.chunkFile);
     return set;

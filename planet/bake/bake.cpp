@@ -296,10 +296,11 @@ Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, Ato
     return {};
 }
 
-Result<void> writeColours(const ColourSource& source, const BakeSettings& settings, AtomicFile& file,
-                          ProgressMeter& meter, ChunkFileInfo& info) {
+Result<void> writeColours(const ColourSource& source, const ColourTree& tree, const BakeSettings& settings,
+                          AtomicFile& file, ProgressMeter& meter, ChunkFileInfo& info) {
     const auto progress = [&](std::uint64_t tiles) { return meter.add(tiles * samplesPerColourTile); };
-    TRY_ASSIGN(info.colour, bakeColour(source, settings.colour, bakeThreads(settings), file, progress));
+    TRY_ASSIGN(info.colour,
+               bakeColour(source, tree, settings.colour.format, bakeThreads(settings), file, progress));
     return {};
 }
 
@@ -314,11 +315,11 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     const int tileLevels = leafLevel(shape) - tileLevelOf(shape, settings.tileLevels);
     const TreeCount tree = countTree(source, shape).value();
     const BakeContext context{source, shape, settings.compressionLevel};
-    std::uint64_t colourTiles = 0;
+    ColourTree colourTree;
     if (colour) {
-        TRY_ASSIGN(const auto leaf, colourLeafLevel(*colour, settings.colour));
-        colourTiles = tileCountOf(leaf);
+        TRY_ASSIGN(colourTree, colourTreeOf(*colour, settings.colour));
     }
+    const std::uint64_t colourTiles = colourTree.tileCount();
 
     TRY_ASSIGN(auto file, AtomicFile::create(output, settings.fileCalls));
     TRY(file.append(std::vector<std::byte>(chunkFileHeaderBytes)));
@@ -333,7 +334,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     TRY(writeRoots(context, assembler, file, info));
     const std::uint64_t bytesWithoutColours = file.size();
     if (colour) {
-        TRY(writeColours(*colour, settings, file, meter, info));
+        TRY(writeColours(*colour, colourTree, settings, file, meter, info));
     }
     const std::uint64_t fileBytes = file.size();
     TRY(file.overwrite(0, headerBytes(info, fileBytes)));

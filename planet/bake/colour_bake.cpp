@@ -41,23 +41,25 @@ public:
                 const ColourProgress& progress)
         : source_(source), format_(format), threads_(threads), file_(file), progress_(progress) {}
 
-    // Writes a level. below: the locations of each tile's children, empty at the finest level. Returns the
-    // location of each block.
-    Result<std::vector<BlockLocation>> write(int level, const std::vector<BlockLocation>& below) {
-        const std::size_t perBlock = level == 0 ? 1 : quadrantCount;
-        const std::uint64_t count = std::uint64_t{faceCount} << (2 * level);
+    // Writes a level. below: the locations of the blocks of the next finer level, in order. Returns the location of
+    // each block.
+    Result<std::vector<BlockLocation>> write(const ColourTree::Level& level,
+                                             const std::vector<BlockLocation>& below) {
+        const std::size_t count = level.ids.size();
+        const std::size_t perBlock = level.ids[0].level == 0 ? 1 : quadrantCount;
         const std::size_t batch = std::max<std::size_t>(4, static_cast<std::size_t>(threads_) * 2) / 4 * 4;
         std::vector<BlockLocation> locations;
         locations.reserve(count / perBlock);
-        for (std::uint64_t first = 0; first < count; first += batch) {
-            const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(batch, count - first));
-            TRY_ASSIGN(auto tiles, make(level, first, now));
+        std::size_t nextBelow = 0;
+        for (std::size_t first = 0; first < count; first += batch) {
+            const std::size_t now = std::min(batch, count - first);
+            TRY_ASSIGN(auto tiles, make(std::span(level.ids).subspan(first, now)));
             for (std::size_t i = 0; i < now; ++i) {
-                if (!below.empty()) tiles[i].entry.children = below[first + i];
+                if (level.hasChildren[first + i]) tiles[i].entry.children = below[nextBelow++];
             }
             for (std::size_t i = 0; i < now; i += perBlock) {
-                const ChunkId id = chunkInQuadtreeOrder(first + i, level);
-                TRY_ASSIGN(const auto location, append(id, std::span(tiles).subspan(i, perBlock)));
+                TRY_ASSIGN(const auto location,
+                           append(level.ids[first + i], std::span(tiles).subspan(i, perBlock)));
                 locations.push_back(location);
             }
             if (progress_ && !progress_(now)) return cancelled();
@@ -66,11 +68,10 @@ public:
     }
 
 private:
-    Result<std::vector<PackedTile>> make(int level, std::uint64_t first, std::size_t count) const {
-        std::vector<Result<PackedTile>> made(count, PackedTile{});
-        parallelFor(threads_, count, [&](std::size_t i) {
-            made[i] = packedTile(source_, format_, chunkInQuadtreeOrder(first + i, level));
-        });
+    Result<std::vector<PackedTile>> make(std::span<const ChunkId> ids) const {
+        std::vector<Result<PackedTile>> made(ids.size(), PackedTile{});
+        parallelFor(threads_, ids.size(),
+                    [&](std::size_t i) { made[i] = packedTile(source_, format_, ids[i]); });
         std::vector<PackedTile> tiles;
         for (Result<PackedTile>& result : made) {
             TRY_ASSIGN(auto tile, std::move(result));
@@ -113,17 +114,43 @@ Result<int> colourLeafLevel(const ColourSource& source, const ColourBakeSettings
     return std::countr_zero(static_cast<unsigned>((size - 1) / colourTileCells));
 }
 
-Result<ColourPyramid> bakeColour(const ColourSource& source, const ColourBakeSettings& settings, int threads,
-                                 AtomicFile& file, const ColourProgress& progress) {
+std::uint64_t ColourTree::tileCount() const {
+    std::uint64_t count = 0;
+    for (const Level& level : levels) count += level.ids.size();
+    return count;
+}
+
+Result<ColourTree> colourTreeOf(const ColourSource& source, const ColourBakeSettings& settings) {
     TRY_ASSIGN(const auto leaf, colourLeafLevel(source, settings));
-    LevelWriter writer(source, settings.format, threads, file, progress);
+    const auto isFiner = [&](const ChunkId& tile) {
+        return !source.finestCells || source.finestCells(tile) > colourTileCells << tile.level;
+    };
+    ColourTree tree;
+    tree.levels.emplace_back();
+    for (const Face face : allFaces) tree.levels[0].ids.push_back({face, 0, 0, 0});
+    for (int level = 0;; ++level) {
+        ColourTree::Level& here = tree.levels.back();
+        std::vector<ChunkId> children;
+        for (const ChunkId& tile : here.ids) {
+            here.hasChildren.push_back(level < leaf && isFiner(tile));
+            for (int q = 0; q < quadrantCount && here.hasChildren.back(); ++q)
+                children.push_back(childOf(tile, q));
+        }
+        if (children.empty()) return tree;
+        tree.levels.push_back({std::move(children), {}});
+    }
+}
+
+Result<ColourPyramid> bakeColour(const ColourSource& source, const ColourTree& tree, ColourFormat format,
+                                 int threads, AtomicFile& file, const ColourProgress& progress) {
+    LevelWriter writer(source, format, threads, file, progress);
     std::vector<BlockLocation> below;
-    for (int level = leaf; level >= 0; --level) {
-        TRY_ASSIGN(below, writer.write(level, below));
+    for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
+        TRY_ASSIGN(below, writer.write(*level, below));
     }
     ColourPyramid pyramid;
-    pyramid.format = settings.format;
-    pyramid.leafLevel = leaf;
+    pyramid.format = format;
+    pyramid.leafLevel = static_cast<int>(tree.levels.size()) - 1;
     pyramid.source = source.description;
     std::copy(below.begin(), below.end(), pyramid.roots.begin());
     return pyramid;

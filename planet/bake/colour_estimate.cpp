@@ -37,12 +37,14 @@ Result<void> readMiddle(const ColourSource& source, const ChunkId& id) {
         {&colour, 1});
 }
 
-Result<PackedTiles> packTiles(const ColourSource& source, ColourFormat format, int level,
+// Packs some tiles of a level, spread over it.
+Result<PackedTiles> packTiles(const ColourSource& source, ColourFormat format, const ColourTree::Level& level,
                               std::uint64_t wanted, const std::function<bool()>& goOn) {
     PackedTiles sum;
     std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
-    const std::vector<ChunkId> places = spreadPlaces(level, wanted);
-    for (const ChunkId& id : places) {
+    const std::vector<std::uint64_t> places = spreadIndices(level.ids.size(), wanted);
+    for (const std::uint64_t place : places) {
+        const ChunkId& id = level.ids[place];
         if (goOn && !goOn()) return cancelled();
         const Stopwatch reading;
         TRY(readMiddle(source, id));
@@ -63,7 +65,8 @@ struct AllTiles {
     double seconds = 0;
     double bytes = 0;
 };
-AllTiles allTiles(const PackedTiles& leaf, const PackedTiles& upper, int leafLevel, ColourFormat format) {
+AllTiles allTiles(const PackedTiles& leaf, const PackedTiles& upper, const ColourTree& tree,
+                  ColourFormat format) {
     AllTiles all;
     const double sourceS = std::clamp((upper.tileS - leaf.tileS) / 3, 0.0, leaf.tileS);
     const double packingS = leaf.tileS - sourceS;
@@ -71,10 +74,10 @@ AllTiles allTiles(const PackedTiles& leaf, const PackedTiles& upper, int leafLev
     const auto most = static_cast<double>(largestPackedColourTile(format));
     double bytes = leaf.packedBytes;
     double sourceShare = 1;
-    for (int level = leafLevel; level >= 0; --level) {
-        const auto tiles = static_cast<double>(std::uint64_t{faceCount} << (2 * level));
+    for (auto level = tree.levels.rbegin(); level != tree.levels.rend(); ++level) {
+        const auto tiles = static_cast<double>(level->ids.size());
         all.seconds += tiles * (packingS + sourceShare * sourceS);
-        const double blocks = level == 0 ? tiles : tiles / quadrantCount;
+        const double blocks = level->ids[0].level == 0 ? tiles : tiles / quadrantCount;
         all.bytes += tiles * (bytes + static_cast<double>(colourEntryBytes)) +
                      blocks * static_cast<double>(checksumBytes);
         bytes = std::clamp(bytes + growth, 0.0, most);
@@ -88,27 +91,29 @@ AllTiles allTiles(const PackedTiles& leaf, const PackedTiles& upper, int leafLev
 Result<ColourEstimate> estimateColours(const ColourSource& source, const ColourBakeSettings& settings,
                                        int threads, std::size_t cacheBytes,
                                        const std::function<bool()>& goOn) {
-    TRY_ASSIGN(const auto leafLevel, colourLeafLevel(source, settings));
-    TRY_ASSIGN(const auto leaf, packTiles(source, settings.format, leafLevel, leafTilesPacked, goOn));
+    TRY_ASSIGN(const auto tree, colourTreeOf(source, settings));
+    const std::size_t leafLevel = tree.levels.size() - 1;
+    TRY_ASSIGN(const auto leaf,
+               packTiles(source, settings.format, tree.levels[leafLevel], leafTilesPacked, goOn));
     PackedTiles upper = leaf;
     if (leafLevel > 0) {
         TRY_ASSIGN(const auto packed,
-                   packTiles(source, settings.format, leafLevel - 1, upperTilesPacked, goOn));
+                   packTiles(source, settings.format, tree.levels[leafLevel - 1], upperTilesPacked, goOn));
         upper = packed;
     }
-    const AllTiles all = allTiles(leaf, upper, leafLevel, settings.format);
+    const AllTiles all = allTiles(leaf, upper, tree, settings.format);
 
     ColourEstimate estimate;
     estimate.faceSize = (colourTileCells << leafLevel) + 1;
-    estimate.levels = leafLevel + 1;
-    estimate.tiles = tileCountOf(leafLevel);
+    estimate.levels = static_cast<int>(leafLevel) + 1;
+    estimate.tiles = tree.tileCount();
     estimate.fileBytes = all.bytes;
     estimate.seconds = leaf.readS + all.seconds / threads;
     const std::uint64_t texelsOfTile = std::uint64_t{colourTileTexels} * colourTileTexels;
-    const std::uint64_t finestBlocks = (std::uint64_t{faceCount} << (2 * leafLevel)) / quadrantCount + 1;
+    const std::uint64_t finestBlocks = tree.levels[leafLevel].ids.size() / quadrantCount + 1;
     estimate.bakeBytes = cacheBytes +
                          static_cast<std::uint64_t>(threads) * texelsOfTile * bytesPerTexelAtWork +
-                         finestBlocks * sizeof(BlockLocation);
+                         estimate.tiles * sizeof(ChunkId) + finestBlocks * sizeof(BlockLocation);
     estimate.residentBytes = estimate.tiles * colourTileBytes(settings.format);
     return estimate;
 }

@@ -27,6 +27,7 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
     if (level.level == file.info().colour->leafLevel) return {};
     TRY_ASSIGN(const auto entries, file.readColourEntries(parent, block));
     for (std::size_t q = 0; q < entries.size(); ++q) {
+        if (!entries[q].children.exists()) continue;
         const ChunkId child = childOf(parent, static_cast<int>(q));
         TRY(tallyChildren(file, child, entries[q].children, levels, bytesLeft));
     }
@@ -83,7 +84,7 @@ private:
         if (source_) {
             TRY(compare(tile));
         }
-        if (tile.id.level == colour_.leafLevel) return {};
+        if (!tile.children.exists()) return {};
         const auto children = file_.readColourChildren(tile.id, tile.children);
         if (!children) {
             problem(children.error().message);
@@ -150,8 +151,8 @@ Result<std::vector<ColourLevelReport>> reportColours(const ChunkFile& file) {
         const BlockLocation block = colour.roots[static_cast<std::size_t>(face)];
         levels[0].tiles += 1;
         levels[0].bytes += block.size;
-        if (colour.leafLevel == 0) continue;
         TRY_ASSIGN(const auto root, file.readColourRoot(face));
+        if (!root.children.exists()) continue;
         TRY(tallyChildren(file, root.id, root.children, levels, bytesLeft));
     }
     return levels;

@@ -10,18 +10,24 @@
 
 namespace planet {
 
-// Returns squares of a level, one in each of equally long stretches of the quadtree order. Neighbours in that
-// order are neighbours on the sphere, so the places are spread evenly. Returns all squares if the level has
-// no more than are wanted.
-inline std::vector<ChunkId> spreadPlaces(int level, std::uint64_t wanted) {
-    const std::uint64_t total = std::uint64_t{faceCount} << (2 * level);
+// Returns indices below a total, one in each of equally long stretches; all of them if no more are wanted.
+inline std::vector<std::uint64_t> spreadIndices(std::uint64_t total, std::uint64_t wanted) {
     const std::uint64_t count = std::min(wanted, total);
-    std::vector<ChunkId> chosen;
+    std::vector<std::uint64_t> chosen;
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t first = i * total / count;
         const std::uint64_t end = (i + 1) * total / count;
-        chosen.push_back(chunkInQuadtreeOrder(first + scrambled64(i) % (end - first), level));
+        chosen.push_back(first + scrambled64(i) % (end - first));
     }
+    return chosen;
+}
+
+// Returns squares of a level. Neighbours in the quadtree order are neighbours on the sphere, so the places are spread
+// evenly.
+inline std::vector<ChunkId> spreadPlaces(int level, std::uint64_t wanted) {
+    std::vector<ChunkId> chosen;
+    for (const std::uint64_t i : spreadIndices(std::uint64_t{faceCount} << (2 * level), wanted))
+        chosen.push_back(chunkInQuadtreeOrder(i, level));
     return chosen;
 }
 

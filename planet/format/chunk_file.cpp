@@ -221,11 +221,11 @@ Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, B
         const ColourEntry entry =
             colourEntryFrom(content.subspan(i * colourEntryBytes).first<colourEntryBytes>(), location.offset);
         const BlockId tile(tiles[i], BlockKind::Colours);
-        const bool mayHaveChildren = tiles[i].level < pyramid.leafLevel;
-        if (entry.children.exists() != mayHaveChildren || entry.packedBytes > packed.size())
+        const bool hasChildren = entry.children.exists();
+        if ((hasChildren && tiles[i].level >= pyramid.leafLevel) || entry.packedBytes > packed.size())
             return invalid(tile, "its children or size are out of range");
         // Blocks of children precede those of their parents in the file.
-        if (mayHaveChildren && entry.children.size > location.offset - entry.children.offset)
+        if (hasChildren && entry.children.size > location.offset - entry.children.offset)
             return invalid(tile, "its children's block overlaps its own");
         auto texels = unpackColourTexels(pyramid.format, packed.first(entry.packedBytes));
         if (!texels) return invalid(tile, texels.error().message);
@@ -268,9 +268,11 @@ Result<std::array<ColourEntry, quadrantCount>> ChunkFile::readColourEntries(cons
     for (std::size_t q = 0; q < entries.size(); ++q) {
         entries[q] = colourEntryFrom(std::span(bytes).subspan(q * colourEntryBytes).first<colourEntryBytes>(),
                                      location.offset);
-        if (!entries[q].children.exists())
+        const BlockLocation& children = entries[q].children;
+        if (children.exists() && children.size > location.offset - children.offset) {
             return invalid({childOf(parent, static_cast<int>(q)), BlockKind::Colours},
                            "its index entry is out of range");
+        }
     }
     return entries;
 }

@@ -79,29 +79,53 @@ IdleDataSets& idleDataSets() {
     return sets;
 }
 
-std::string typeNameOf(GDALDataType type) {
-    switch (type) {
-        case GDT_Byte:
-            return "uint8";
-        case GDT_UInt16:
-            return "uint16";
-        case GDT_Int16:
-            return "int16";
-        case GDT_UInt32:
-            return "uint32";
-        case GDT_Int32:
-            return "int32";
-        case GDT_Float32:
-            return "float";
-        case GDT_Float64:
-            return "double";
-        default:
-            return {};
-    }
+// A type of samples that is read.
+struct ReadType {
+    GDALDataType gdal;
+    SampleType type;
+    const char* name;
+};
+constexpr std::array<ReadType, 7> readTypes = {{{GDT_Byte, SampleType::Uint8, "uint8"},
+                                                {GDT_UInt16, SampleType::Uint16, "uint16"},
+                                                {GDT_Int16, SampleType::Int16, "int16"},
+                                                {GDT_UInt32, SampleType::Uint32, "uint32"},
+                                                {GDT_Int32, SampleType::Int32, "int32"},
+                                                {GDT_Float32, SampleType::Float, "float"},
+                                                {GDT_Float64, SampleType::Double, "double"}}};
+
+bool isInteger(SampleType type) {
+    return type != SampleType::Float && type != SampleType::Double;
 }
 
-bool isInteger(GDALDataType type) {
-    return type != GDT_Float32 && type != GDT_Float64;
+// Returns the bands of a picture in the order red, green and blue; one if it is grey or has a colour table. A file that
+// does not say what its bands are has them in that order.
+std::vector<int> colourBands(GDALDatasetH dataSet) {
+    constexpr std::array channels = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand};
+    std::vector<int> bands;
+    const int count = GDALGetRasterCount(dataSet);
+    for (const GDALColorInterp channel : channels) {
+        for (int band = 1; band <= count; ++band) {
+            if (GDALGetRasterColorInterpretation(GDALGetRasterBand(dataSet, band)) != channel) continue;
+            bands.push_back(band);
+            break;
+        }
+    }
+    if (bands.size() == channels.size()) return bands;
+    return count >= 3 ? std::vector<int>{1, 2, 3} : std::vector<int>{1};
+}
+
+// Checks that the bands of a file are heights.
+Result<void> checkHeightBands(const std::string& file, GDALDatasetH dataSet) {
+    const int bands = GDALGetRasterCount(dataSet);
+    const bool alphaFollows =
+        bands == 2 && GDALGetRasterColorInterpretation(GDALGetRasterBand(dataSet, 2)) == GCI_AlphaBand;
+    if (bands > 1 && !alphaFollows) {
+        return badInput(fmt::format("{}: has {} bands; expected one band of heights", file, bands));
+    }
+    if (GDALGetRasterColorTable(GDALGetRasterBand(dataSet, 1))) {
+        return badInput(fmt::format("{}: holds indices of a colour table; expected heights", file));
+    }
+    return {};
 }
 
 GeoTags bandTags(GDALRasterBandH band) {
@@ -180,7 +204,7 @@ Result<void> setBlocks(const std::string& file, GDALRasterBandH band, RasterLayo
                                 file, width, height, mostBlockSamples));
 }
 
-Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatasetH dataSet,
+Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatasetH dataSet, int bandNumber,
                                     const HeightSourceSettings& settings) {
     const std::string file = path.string();
     RasterLayout layout;
@@ -202,33 +226,32 @@ Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatas
         return badInput(fmt::format("{}: is {} x {} samples; expected at most 2^38 in all", file,
                                     layout.width, layout.height));
     }
-    GDALRasterBandH const band = GDALGetRasterBand(dataSet, 1);
-    const bool alphaFollows =
-        bands == 2 && GDALGetRasterColorInterpretation(GDALGetRasterBand(dataSet, 2)) == GCI_AlphaBand;
-    if (bands > 1 && !alphaFollows) {
-        return badInput(fmt::format("{}: has {} bands; expected one band of heights", file, bands));
-    }
-    if (GDALGetRasterColorTable(band)) {
-        return badInput(fmt::format("{}: holds indices of a colour table; expected heights", file));
-    }
-    const GDALDataType type = GDALGetRasterDataType(band);
-    layout.typeName = typeNameOf(type);
-    if (layout.typeName.empty()) {
+    if (!settings.colourChannel) TRY(checkHeightBands(file, dataSet));
+    GDALRasterBandH const band = GDALGetRasterBand(dataSet, bandNumber);
+    const GDALDataType found = GDALGetRasterDataType(band);
+    const auto* const known = std::ranges::find(readTypes, found, &ReadType::gdal);
+    if (known == readTypes.end()) {
         return badInput(
             fmt::format("{}: has samples of type {}; expected integers of 8 to 32 bits, float or double",
-                        file, GDALGetDataTypeName(type)));
+                        file, GDALGetDataTypeName(found)));
     }
+    layout.typeName = known->name;
     TRY(setPlace(file, dataSet, layout));
     TRY(setReferenceSystem(file, dataSet, layout));
     TRY(setBlocks(file, band, layout));
-    TRY_ASSIGN(layout.conversion, conversionFor(file, settings, SampleType::Float, bandTags(band)));
+    // GDAL returns floats. The colours of a picture depend on the type in the file, and those of a colour table have 8
+    // bits.
+    SampleType type = SampleType::Float;
+    if (settings.colourChannel) type = GDALGetRasterColorTable(band) ? SampleType::Uint8 : known->type;
+    TRY_ASSIGN(layout.conversion, conversionFor(file, settings, type, bandTags(band)));
+    layout.conversion.type = SampleType::Float;
     layout.conversion.fillM = std::numeric_limits<float>::quiet_NaN();
-    if (isInteger(type)) layout.stepM = std::abs(layout.conversion.metresPerUnit);
+    if (isInteger(known->type)) layout.stepM = std::abs(layout.conversion.metresPerUnit);
     return layout;
 }
 
-bool hasMaskBand(GDALDatasetH dataSet) {
-    const int flags = GDALGetMaskFlags(GDALGetRasterBand(dataSet, 1));
+bool hasMaskBand(GDALDatasetH dataSet, int band) {
+    const int flags = GDALGetMaskFlags(GDALGetRasterBand(dataSet, band));
     return (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0;
 }
 
@@ -258,14 +281,64 @@ Result<std::shared_ptr<const Raster>> GdalRaster::open(const std::filesystem::pa
             "JPEG 2000, ENVI, VRT or a similar format",
             path.string(), QuietErrors::lastMessage()));
     }
-    TRY_ASSIGN(raster->layout_, rasterLayoutOf(path, dataSet.get(), settings));
-    raster->hasMask_ = hasMaskBand(dataSet.get());
+    if (GDALGetRasterCount(dataSet.get()) > 0 && settings.colourChannel)
+        raster->chooseBands(dataSet.get(), *settings.colourChannel);
+    TRY_ASSIGN(raster->layout_, rasterLayoutOf(path, dataSet.get(), raster->band_, settings));
+    raster->hasMask_ = hasMaskBand(dataSet.get(), raster->band_);
     idleDataSets().giveBack(raster.get(), std::move(dataSet));
     return raster;
 }
 
 GdalRaster::~GdalRaster() {
     idleDataSets().close(this);
+}
+
+void GdalRaster::chooseBands(void* dataSet, int channel) {
+    const std::vector<int> bands = colourBands(dataSet);
+    band_ = bands[bands.size() == 1 ? 0 : static_cast<std::size_t>(channel)];
+    GDALRasterBandH const band = GDALGetRasterBand(dataSet, band_);
+    isPalette_ = GDALGetRasterColorTable(band) != nullptr;
+    channel_ = channel;
+    int given = 0;
+    voidValue_ = GDALGetRasterNoDataValue(band, &given);
+    if (given != 0) voidBands_ = bands;
+}
+
+// Replaces indices by their colours, [0, 255]; those that the table does not have become NaN.
+bool GdalRaster::readPalette(void* dataSet, std::vector<float>& values) const {
+    const GDALColorTableH table = GDALGetRasterColorTable(GDALGetRasterBand(dataSet, band_));
+    if (!table) return false;
+    const int count = GDALGetColorEntryCount(table);
+    for (float& value : values) {
+        const GDALColorEntry* const entry = value >= 0 && value < static_cast<float>(count)
+                                                ? GDALGetColorEntry(table, static_cast<int>(value))
+                                                : nullptr;
+        const bool isSeen = entry && entry->c4 > 0;
+        const std::array<short, 3> colour =
+            isSeen ? std::array{entry->c1, entry->c2, entry->c3} : std::array<short, 3>{};
+        value = isSeen ? static_cast<float>(colour[static_cast<std::size_t>(channel_)])
+                       : std::numeric_limits<float>::quiet_NaN();
+    }
+    return true;
+}
+
+// Clears the mask where all bands have the no-data value.
+bool GdalRaster::readVoids(void* dataSet, int x, int y, int width, int height,
+                           std::vector<std::uint8_t>& mask) const {
+    std::vector<std::uint8_t> hasColour(mask.size());
+    std::vector<double> values(mask.size());
+    for (const int number : voidBands_) {
+        GDALRasterBandH const band = GDALGetRasterBand(dataSet, number);
+        if (!band || GDALRasterIO(band, GF_Read, x, y, width, height, values.data(), width, height,
+                                  GDT_Float64, 0, 0) != CE_None)
+            return false;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const bool isVoid = std::isnan(voidValue_) ? std::isnan(values[i]) : values[i] == voidValue_;
+            if (!isVoid) hasColour[i] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = mask[i] != 0 && hasColour[i] != 0 ? 1 : 0;
+    return true;
 }
 
 Result<std::vector<float>> GdalRaster::readBlock(int blockX, int blockY) const {
@@ -281,7 +354,7 @@ Result<std::vector<float>> GdalRaster::readBlock(int blockX, int blockY) const {
     };
     DataSet dataSet = idleDataSets().borrow(this);
     if (!dataSet) return unreadable();
-    GDALRasterBandH const band = GDALGetRasterBand(dataSet.get(), 1);
+    GDALRasterBandH const band = GDALGetRasterBand(dataSet.get(), band_);
     // A file that was replaced by a smaller one since it was opened must not be read beyond its end.
     if (!band || GDALGetRasterXSize(dataSet.get()) != layout_.width ||
         GDALGetRasterYSize(dataSet.get()) != layout_.height) {
@@ -298,6 +371,11 @@ Result<std::vector<float>> GdalRaster::readBlock(int blockX, int blockY) const {
                          GDT_Byte, 0, 0) != CE_None)
             return unreadable();
     }
+    if (!voidBands_.empty()) {
+        mask.resize(count, 1);
+        if (!readVoids(dataSet.get(), x, y, width, height, mask)) return unreadable();
+    }
+    if (isPalette_ && !readPalette(dataSet.get(), values)) return unreadable();
     idleDataSets().giveBack(this, std::move(dataSet));
     std::vector<float> heights(count);
     convertToMetres(layout_.conversion, std::as_bytes(std::span(values)), heights);

@@ -1,6 +1,8 @@
-// Reads the first band of georeferenced rasters with GDAL, in metres (gdal_formats.h). Internal to the library.
+// Reads georeferenced rasters with GDAL (gdal_formats.h): the first band as heights in metres, or one channel of a
+// picture. Internal to the library.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -18,8 +20,8 @@ namespace planet {
 class GdalRaster : public Raster {
 public:
     // Opens a raster. The Error says that the file is unreadable, has no coordinate reference system or
-    // position, or that its samples are no heights. settings: units, offset and no-data value as in
-    // HeightSourceSettings.
+    // position, or that its samples are no heights. settings: units, offset, no-data value and colour channel as in
+    // HeightSourceSettings; bands are chosen by what the file says of their colours.
     static Result<std::shared_ptr<const Raster>> open(const std::filesystem::path& path,
                                                       const HeightSourceSettings& settings);
     ~GdalRaster() override;
@@ -34,10 +36,19 @@ public:
 
 private:
     GdalRaster() = default;
+    void chooseBands(void* dataSet, int channel);
+    bool readPalette(void* dataSet, std::vector<float>& values) const;
+    bool readVoids(void* dataSet, int x, int y, int width, int height, std::vector<std::uint8_t>& mask) const;
 
     std::string gdalName_;
     bool isVrt_ = false;
     bool hasMask_ = false;
+    int band_ = 1;
+    bool isPalette_ = false;  // the band holds indices of a colour table
+    int channel_ = 0;         // of a colour of the table
+    // Of a picture: a pixel is missing if all of these bands have the file's no-data value.
+    std::vector<int> voidBands_;
+    double voidValue_ = 0;
 };
 
 }  // namespace planet

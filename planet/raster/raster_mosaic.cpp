@@ -131,9 +131,11 @@ HeightBlockCache& MosaicCache::of(const GridReduction& reduction) {
     return byHalvings_[static_cast<std::size_t>(reduction.columnsLog2 + reduction.rowsLog2)];
 }
 
-RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<MosaicCache> cache,
-                           int number)
-    : placement_(std::move(placement)), layout_(first.layout()), cache_(std::move(cache)), number_(number) {
+RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<MosaicCache> cache)
+    : placement_(std::move(placement)),
+      layout_(first.layout()),
+      cache_(std::move(cache)),
+      number_(cache_->newNumber()) {
     const double around = placement_.columnsAround();
     // A header that lies can put the poles where the rows do not fit in integers.
     const double farthest =
@@ -150,7 +152,7 @@ Result<std::vector<RasterMosaic>> RasterMosaic::join(const std::vector<RasterPtr
         const RasterLayout& layout = first.layout();
         TRY_ASSIGN(auto placement,
                    RasterPlacement::make(first.path().string(), {layout.x, layout.y, layout.crs}));
-        RasterMosaic mosaic(first, std::move(placement), cache, static_cast<int>(mosaics.size()));
+        RasterMosaic mosaic(first, std::move(placement), cache);
         for (const RasterPtr& raster : grid) mosaic.add(raster);
         mosaic.sortIntoBands();
         mosaics.push_back(std::move(mosaic));

@@ -43,9 +43,12 @@ public:
     explicit MosaicCache(std::size_t bytes);
 
     HeightBlockCache& of(const GridReduction& reduction);
+    // Returns a number that no other mosaic with this cache has.
+    int newNumber() { return nextNumber_++; }
 
 private:
     std::deque<HeightBlockCache> byHalvings_;
+    std::atomic<int> nextNumber_ = 0;
 };
 
 inline constexpr std::size_t mostRasters = 1u << 20;  // in all mosaics of a source
@@ -86,8 +89,7 @@ public:
     void markTiles(const GridRect& rect, std::span<float> out) const;
 
 private:
-    RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<MosaicCache> cache,
-                 int number);
+    RasterMosaic(const Raster& first, RasterPlacement placement, std::shared_ptr<MosaicCache> cache);
     void add(const std::shared_ptr<const Raster>& raster);
     void sortIntoBands();
     Result<void> readTile(std::size_t tile, const GridRect& rect, const GridRect& target,

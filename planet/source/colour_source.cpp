@@ -9,6 +9,7 @@
 #include "planet/base/try.h"
 #include "planet/source/height_source.h"
 #include "planet/source/sample_tiles.h"
+#include "planet/source/world_file.h"
 
 namespace planet {
 
@@ -37,6 +38,12 @@ Result<void> samplePiece(const Channels& channels, const SampleTile& piece, glm:
 
 }  // namespace
 
+bool hasColourLayers(const std::filesystem::path& path) {
+    if (!isWorldFile(path)) return false;
+    const Result<WorldFile> world = readWorldFile(path);
+    return world && !world->colours.empty();
+}
+
 Result<ColourSource> openColourSource(const std::filesystem::path& path, std::size_t cacheBytes) {
     Channels channels;
     for (int channel = 0; channel < channelCount; ++channel) {
@@ -49,6 +56,7 @@ Result<ColourSource> openColourSource(const std::filesystem::path& path, std::si
     source.description = channels[0].description;
     source.naturalFaceSize = channels[0].naturalFaceSize;
     source.notice = std::ranges::max_element(channels, {}, &HeightSource::seamEdges)->notice;
+    source.finestCells = channels[0].finestCells;
     source.sample = [channels = std::move(channels)](const SampleTile& tile, std::span<glm::vec3> out) {
         return sampleInPieces(tile, colourPieceSide, out,
                               [&](const SampleTile& piece, glm::vec3* to, std::size_t stride) {

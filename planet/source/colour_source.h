@@ -1,7 +1,10 @@
-// Opens a colour source: an image of the whole planet or of its six faces, with one sampling function.
+// Opens a colour source, with one sampling function: an image of the whole planet or of its six faces, georeferenced
+// rasters of any part of it, or a world file with layers [[colour]].
 //
-// Images have the layout of height images (height_source.h) and any size: grey or RGB, 8 or 16 bits in sRGB,
-// or floats in linear light. Alpha is ignored.
+// Images of the whole planet and of faces have the layout of height images (height_source.h) and any size: grey or
+// RGB, 8 or 16 bits in sRGB, or floats in linear light. Their alpha is ignored. Georeferenced rasters may have a
+// colour table too; masks, alpha and no-data values say where they have no colour, and it is black if nothing lies
+// under it.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +25,17 @@ struct ColourSource {
     int naturalFaceSize = 0;  // the smallest 2^n + 1 that loses no resolution
     // The warning that six faces differ along the cube's edges, with visible seams; empty if they agree.
     std::string notice{};
+    // Returns the smallest power of two of cells along a face that loses no resolution under a square, as
+    // HeightSource::finestCells does. Null: naturalFaceSize - 1 everywhere.
+    std::function<int(const ChunkId& square)> finestCells{};
 
     // Fills out, row-major, with columns x rows colours in linear light, [0, 1]. Like HeightSource::sample,
     // it filters to the grid's spacing and returns the same bits on an edge of the cube from either face.
     std::function<Result<void>(const SampleTile& tile, std::span<glm::vec3> out)> sample;
 };
+
+// Returns whether a path is a valid world file with layers of colour, which openColourSource opens.
+bool hasColourLayers(const std::filesystem::path& path);
 
 inline constexpr std::size_t defaultColourCacheBytes = 192u << 20;
 

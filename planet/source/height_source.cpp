@@ -77,8 +77,7 @@ Result<HeightSource> openImage(const std::filesystem::path& path, const HeightSo
         const ImageLayout& layout = file->layout();
         return placementOf(path.string(), layout.width, layout.height, layout.geoTags);
     });
-    if (placement || settings.colourChannel || !isGdalRaster(path))
-        return openEquirectangularSource(path, settings);
+    if (placement || !isGdalRaster(path)) return openEquirectangularSource(path, settings);
     Result<HeightSource> placed = openRasterSource(path, {path}, settings);
     // Without a position, what matters is what the image lacks to be one of the whole planet.
     const bool hasPosition = image ? (*image)->layout().geoTags.placement.has_value()
@@ -88,9 +87,9 @@ Result<HeightSource> openImage(const std::filesystem::path& path, const HeightSo
 
 }  // namespace
 
-bool coversPlanet(const std::filesystem::path& path) {
+bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourChannel) {
     if (findFaceFiles(path)) return true;
-    const auto image = ImageFile::open(path, std::nullopt);
+    const auto image = ImageFile::open(path, colourChannel);
     if (!image) return false;
     const ImageLayout& layout = (*image)->layout();
     return placementOf(path.string(), layout.width, layout.height, layout.geoTags).has_value();

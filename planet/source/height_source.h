@@ -38,8 +38,8 @@ HeightSourceFiles heightSourceFiles(const std::filesystem::path& path);
 // chunk file is not a source.
 bool heightSourceExists(const std::filesystem::path& path);
 
-// Returns whether a path is a world file, valid or not: TOML with a table [[elevation]]. README.md beside this file
-// describes it.
+// Returns whether a path is a world file, valid or not: TOML with a table [[elevation]] or [[colour]]. README.md beside
+// this file describes it.
 bool isWorldFile(const std::filesystem::path& path);
 
 // Opens a world file, a terrain text ("noise:ridged,seed=7", terrain.h), an elevation image, georeferenced rasters by a

@@ -144,8 +144,9 @@ bool isWorldFile(const std::filesystem::path& path) {
     std::ifstream stream(path);
     for (std::string line; std::getline(stream, line);) {
         const std::size_t first = line.find_first_not_of(" \t");
-        if (first != std::string::npos && std::string_view(line).substr(first).starts_with("[[elevation]]"))
-            return true;
+        if (first == std::string::npos) continue;
+        const std::string_view text = std::string_view(line).substr(first);
+        if (text.starts_with("[[elevation]]") || text.starts_with("[[colour]]")) return true;
     }
     return false;
 }
@@ -241,11 +242,13 @@ HeightSourceFiles worldFiles(const std::filesystem::path& path) {
     HeightSourceFiles found{path.stem().string(), {path}};
     const Result<WorldFile> world = readWorldFile(path);
     if (!world) return found;
-    for (const WorldLayer& layer : world->layers) {
-        for (const std::filesystem::path& named : layer.files) {
-            if (isWorldFile(named)) continue;
-            const HeightSourceFiles files = heightSourceFiles(named);
-            found.files.insert(found.files.end(), files.files.begin(), files.files.end());
+    for (const auto* layers : {&world->layers, &world->colours}) {
+        for (const WorldLayer& layer : *layers) {
+            for (const std::filesystem::path& named : layer.files) {
+                if (isWorldFile(named)) continue;
+                const HeightSourceFiles files = heightSourceFiles(named);
+                found.files.insert(found.files.end(), files.files.begin(), files.files.end());
+            }
         }
     }
     return found;

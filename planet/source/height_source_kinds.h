@@ -35,17 +35,20 @@ struct RasterAreas {
     std::vector<std::string> skipped;  // as in HeightSource
 };
 Result<RasterAreas> openRasterAreas(const std::vector<std::filesystem::path>& files,
-                                    const HeightSourceSettings& settings);
+                                    const HeightSourceSettings& settings,
+                                    const std::shared_ptr<MosaicCache>& cache);
 // The same for rasters that open() opens by their number; files are for messages.
 Result<RasterAreas> openRasterAreas(
     const std::vector<std::filesystem::path>& files, const HeightSourceSettings& settings,
+    const std::shared_ptr<MosaicCache>& cache,
     const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open);
 
 // Returns ", 1 file skipped" for a description; empty if none was.
 std::string skippedText(std::size_t count);
 
-// Returns whether a path names an image of the whole planet or six cube faces.
-bool coversPlanet(const std::filesystem::path& path);
+// Returns whether a path names an image of the whole planet or six cube faces. colourChannel: as in
+// HeightSourceSettings.
+bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourChannel);
 
 // Opens a world file (world_file.h).
 Result<HeightSource> openWorld(const std::filesystem::path& path, const HeightSourceSettings& settings);

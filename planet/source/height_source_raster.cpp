@@ -113,11 +113,12 @@ std::vector<OpenRaster> openRasters(
 }
 
 // Joins and surveys rasters. Moves those that cannot be read to the broken ones.
-Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters, std::size_t cacheBytes,
+Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters,
+                                         const std::shared_ptr<MosaicCache>& cache,
                                          std::vector<BrokenFile>& broken) {
     std::vector<std::shared_ptr<const Raster>> whole;
     for (const OpenRaster& raster : rasters) whole.push_back(raster.raster);
-    TRY_ASSIGN(auto mosaics, RasterMosaic::join(whole, std::make_shared<MosaicCache>(cacheBytes)));
+    TRY_ASSIGN(auto mosaics, RasterMosaic::join(whole, cache));
     std::vector<RasterArea> areas;
     for (RasterMosaic& mosaic : mosaics) {
         AreaSurvey survey = surveyArea(std::move(mosaic));
@@ -140,6 +141,7 @@ std::string skippedText(std::size_t count) {
 
 Result<RasterAreas> openRasterAreas(
     const std::vector<std::filesystem::path>& files, const HeightSourceSettings& settings,
+    const std::shared_ptr<MosaicCache>& cache,
     const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open) {
     RasterAreas found;
     std::vector<BrokenFile> broken;
@@ -147,7 +149,7 @@ Result<RasterAreas> openRasterAreas(
     // Without the broken rasters, the others are joined and surveyed again.
     for (bool done = rasters.empty(); !done;) {
         const std::size_t count = rasters.size();
-        TRY_ASSIGN(found.areas, surveyed(rasters, settings.cacheBytes, broken));
+        TRY_ASSIGN(found.areas, surveyed(rasters, cache, broken));
         done = rasters.size() == count || rasters.empty() || !settings.skipBroken;
     }
     std::ranges::sort(broken, {}, &BrokenFile::number);
@@ -159,8 +161,9 @@ Result<RasterAreas> openRasterAreas(
 }
 
 Result<RasterAreas> openRasterAreas(const std::vector<std::filesystem::path>& files,
-                                    const HeightSourceSettings& settings) {
-    return openRasterAreas(files, settings,
+                                    const HeightSourceSettings& settings,
+                                    const std::shared_ptr<MosaicCache>& cache) {
+    return openRasterAreas(files, settings, cache,
                            [&](std::size_t i) { return GdalRaster::open(files[i], settings); });
 }
 
@@ -171,7 +174,8 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         return badInput(fmt::format("{}: matches {} files; expected at most {}", path.string(), files.size(),
                                     mostRasters));
     }
-    TRY_ASSIGN(auto opened, openRasterAreas(files, settings));
+    TRY_ASSIGN(auto opened,
+               openRasterAreas(files, settings, std::make_shared<MosaicCache>(settings.cacheBytes)));
     std::vector<RasterArea>& areas = opened.areas;
     if (areas.empty()) {
         return badInput(fmt::format("{}; all {} files are broken; expected some that can be read",

@@ -180,9 +180,20 @@ constexpr std::array layerKeys = {
              }},
 };
 
-std::string knownKeys() {
+// A kind of layers, the name of its tables, and the keys that it knows.
+struct LayerKind {
+    std::string_view table;
+    bool (*knows)(std::string_view key);
+};
+constexpr LayerKind elevationKind = {"elevation", [](std::string_view) { return true; }};
+constexpr LayerKind colourKind = {
+    "colour", [](std::string_view key) { return key == "name" || key == "files" || key == "feather_m"; }};
+
+std::string knownKeys(const LayerKind& kind) {
     std::string names;
-    for (const LayerKey& key : layerKeys) names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
+    for (const LayerKey& key : layerKeys) {
+        if (kind.knows(key.name)) names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
+    }
     return names;
 }
 
@@ -255,18 +266,19 @@ Result<void> checkLayer(const std::string& place, const WorldLayer& layer, bool 
     return checkPlace(place, layer);
 }
 
-Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node& node, bool isFirst) {
+Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node& node, const LayerKind& kind,
+                             bool isFirst) {
     const toml::table* const table = node.as_table();
     const std::string place = placeOf(file, node);
     if (!table)
         return badInput(
-            fmt::format("{}: a layer is {}; expected a table [[elevation]]", place, shownValue(node)));
+            fmt::format("{}: a layer is {}; expected a table [[{}]]", place, shownValue(node), kind.table));
     WorldLayer layer;
     for (const auto& [key, value] : *table) {
         const auto known = std::ranges::find(layerKeys, key.str(), &LayerKey::name);
-        if (known == layerKeys.end()) {
-            return badInput(fmt::format("{}: {} is no key of a layer; expected one of {}",
-                                        placeOf(file, value), key.str(), knownKeys()));
+        if (known == layerKeys.end() || !kind.knows(key.str())) {
+            return badInput(fmt::format("{}: {} is no key of a layer of {}; expected one of {}",
+                                        placeOf(file, value), key.str(), kind.table, knownKeys(kind)));
         }
         TRY(known->read(file, value, layer));
     }
@@ -276,6 +288,24 @@ Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node
         layer.name = layer.files.empty() ? text : layer.files[0].filename().string();
     }
     return layer;
+}
+
+// Reads the layers of a kind; none if there is no such table.
+Result<std::vector<WorldLayer>> readLayers(const std::filesystem::path& file, const toml::table& table,
+                                           const LayerKind& kind) {
+    std::vector<WorldLayer> layers;
+    const toml::node* const node = table.get(kind.table);
+    if (!node) return layers;
+    const toml::array* const list = node->as_array();
+    if (!list || list->empty() || list->size() > mostLayers) {
+        return badInput(fmt::format("{}: has {} layers of {}; expected [1, {}] tables [[{}]]", file.string(),
+                                    list ? list->size() : 0, kind.table, mostLayers, kind.table));
+    }
+    for (const toml::node& each : *list) {
+        TRY_ASSIGN(auto layer, readLayer(file, each, kind, layers.empty()));
+        layers.push_back(std::move(layer));
+    }
+    return layers;
 }
 
 }  // namespace
@@ -290,22 +320,21 @@ Result<WorldFile> readWorldFile(const std::filesystem::path& path) {
             TRY_ASSIGN(world.datum, readDatum(path, value));
         } else if (key.str() == "radius_m") {
             TRY_ASSIGN(world.radiusM, readNumber(path, "radius_m", value, {1, 1e9, "m"}));
-        } else if (key.str() != "elevation") {
-            return badInput(fmt::format(
-                "{}: {} is no key of a world file; expected radius_m, fill_m, datum and tables [[elevation]]",
-                placeOf(path, value), key.str()));
+        } else if (key.str() != elevationKind.table && key.str() != colourKind.table) {
+            return badInput(
+                fmt::format("{}: {} is no key of a world file; expected radius_m, fill_m, datum and tables "
+                            "[[elevation]] and [[colour]]",
+                            placeOf(path, value), key.str()));
         }
     }
-    const toml::array* const layers = table["elevation"].as_array();
-    if (!layers || layers->empty() || layers->size() > mostLayers) {
-        return badInput(fmt::format("{}: has {} layers; expected [1, {}] tables [[elevation]]", path.string(),
-                                    layers ? layers->size() : 0, mostLayers));
+    TRY_ASSIGN(world.layers, readLayers(path, table, elevationKind));
+    TRY_ASSIGN(world.colours, readLayers(path, table, colourKind));
+    if (world.layers.empty() && world.colours.empty()) {
+        return badInput(fmt::format("{}: has no layers; expected [1, {}] tables [[elevation]] or [[colour]]",
+                                    path.string(), mostLayers));
     }
-    for (const toml::node& node : *layers) {
-        TRY_ASSIGN(auto layer, readLayer(path, node, world.layers.empty()));
-        TRY(checkDatum(placeOf(path, node), layer, world.datum));
-        world.layers.push_back(std::move(layer));
-    }
+    for (std::size_t i = 0; i < world.layers.size(); ++i)
+        TRY(checkDatum(placeOf(path, *table["elevation"].as_array()->get(i)), world.layers[i], world.datum));
     return world;
 }
 

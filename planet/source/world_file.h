@@ -1,4 +1,4 @@
-// Reads a world file: TOML that lists layers of elevation from the bottom up. README.md beside this file has the
+// Reads a world file: TOML that lists layers of elevation and of colour from the bottom up. README.md beside this file has the
 // schema. Internal to the library.
 #pragma once
 
@@ -51,7 +51,10 @@ struct WorldLayer {
 };
 
 struct WorldFile {
-    std::vector<WorldLayer> layers;      // at least one; the first lies at the bottom
+    // Of elevation and of colour, from the bottom up; not both are empty. A layer of colour has only a name, files and
+    // featherM.
+    std::vector<WorldLayer> layers;
+    std::vector<WorldLayer> colours;
     double radiusM = earthRadiusM;       // of the planet, for widths in metres; [1, 1e9]
     double fillM = 0;                    // the height where no layer has one, metres; magnitude at most 1e6
     std::optional<VerticalDatum> datum;  // of the planet's heights

@@ -202,10 +202,16 @@ Extent extentOf(const HeightSource& source) {
 // Makes a world from its layers, and keeps track of its extent.
 class WorldBuilder {
 public:
-    WorldBuilder(const WorldFile& file, const HeightSourceSettings& settings)
-        : settings_(settings), radiusM_(file.radiusM), datum_(file.datum), world_(std::make_unique<World>()) {
-        world_->fillM = world_->minM = world_->maxM = file.fillM;
-        settings_.cacheBytes = std::max(leastCacheBytes, settings.cacheBytes / file.layers.size());
+    WorldBuilder(const WorldFile& file, std::size_t layers, const HeightSourceSettings& settings)
+        : settings_(settings),
+          cache_(std::make_shared<MosaicCache>(settings.cacheBytes)),
+          radiusM_(file.radiusM),
+          datum_(file.datum),
+          world_(std::make_unique<World>()) {
+        // Where no layer has a colour, it is black.
+        world_->fillM = world_->minM = world_->maxM = settings.colourChannel ? 0 : file.fillM;
+        // Layers of the whole planet have caches of their own, and all rasters share one.
+        settings_.cacheBytes = std::max(leastCacheBytes, settings.cacheBytes / layers);
     }
 
     Result<void> add(const WorldLayer& layer) {
@@ -215,7 +221,8 @@ public:
         TRY_ASSIGN(const auto files, filesOfLayer(layer));
         if (layer.place) return addPlaced(layer, files[0]);
         // An image of the whole planet or six faces; anything else is georeferenced.
-        if (layer.files.size() == 1 && files == layer.files && coversPlanet(files[0]))
+        if (layer.files.size() == 1 && files == layer.files &&
+            coversPlanet(files[0], settings_.colourChannel))
             return addWhole(layer, files[0]);
         return addRasters(layer, files);
     }
@@ -286,7 +293,7 @@ private:
     }
 
     Result<void> addRasters(const WorldLayer& layer, const std::vector<std::filesystem::path>& files) {
-        TRY_ASSIGN(auto opened, openRasterAreas(files, settings_));
+        TRY_ASSIGN(auto opened, openRasterAreas(files, settings_, cache_));
         addAreas(layer, std::move(opened));
         return {};
     }
@@ -296,7 +303,7 @@ private:
         settings.rawSize = layer.rawSize;
         settings.rawBigEndian = layer.rawBigEndian;
         settings.rawSigned = layer.rawSigned;
-        TRY_ASSIGN(auto opened, openRasterAreas({file}, settings, [&](std::size_t) {
+        TRY_ASSIGN(auto opened, openRasterAreas({file}, settings, cache_, [&](std::size_t) {
                        return openPlacedImage(file, *layer.place, radiusM_, settings);
                    }));
         addAreas(layer, std::move(opened));
@@ -340,6 +347,7 @@ private:
     }
 
     HeightSourceSettings settings_;
+    std::shared_ptr<MosaicCache> cache_;
     double radiusM_;
     std::optional<VerticalDatum> datum_;  // of the planet
     std::optional<DatumShift> shift_;     // of the layer that is being added
@@ -352,16 +360,22 @@ private:
 
 Result<HeightSource> openWorld(const std::filesystem::path& path, const HeightSourceSettings& settings) {
     TRY_ASSIGN(const auto file, readWorldFile(path));
-    WorldBuilder builder(file, settings);
-    for (const WorldLayer& layer : file.layers) {
+    const std::vector<WorldLayer>& layers = settings.colourChannel ? file.colours : file.layers;
+    if (layers.empty()) {
+        return badInput(fmt::format("{}: has no layers of {}; expected tables [[{}]]", path.string(),
+                                    settings.colourChannel ? "colour" : "elevation",
+                                    settings.colourChannel ? "colour" : "elevation"));
+    }
+    WorldBuilder builder(file, layers.size(), settings);
+    for (const WorldLayer& layer : layers) {
         if (const Result<void> added = builder.add(layer); !added) {
             const Error& error = added.error();
             return tl::unexpected(Error{error.kind, fmt::format("{} (layer \"{}\" of {})", error.message,
                                                                 layer.name, path.string())});
         }
     }
-    return builder.finish(fmt::format("{}, {} layer{}", path.filename().string(), file.layers.size(),
-                                      file.layers.size() == 1 ? "" : "s"));
+    return builder.finish(fmt::format("{}, {} layer{}", path.filename().string(), layers.size(),
+                                      layers.size() == 1 ? "" : "s"));
 }
 
 }  // namespace planet

@@ -64,6 +64,36 @@ TEST(RasterProgram, BakesAWorldFileAndVerifiesIt) {
     EXPECT_EQ(overwriting.exitCode, 2);
 }
 
+TEST(RasterProgram, BakesTheColoursOfAWorldFile) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "world.toml")
+        << "[[elevation]]\nfiles = \"" WORLDY_SOURCE_DIR
+           "/data/earth/elevation.tif\"\n"
+           "[[colour]]\nfiles = \"" WORLDY_SOURCE_DIR "/data/earth/colour.jpg\"\n";
+    const Ran baked =
+        runWorldy(folder, "bake world.toml --face-size 129 --colour-face-size 257 -o world.chk --json");
+    ASSERT_EQ(baked.exitCode, 0) << baked.errors;
+    EXPECT_EQ(nlohmann::json::parse(baked.output)["colour_tiles"], 6);
+    const Ran verified = runWorldy(folder, "verify world.chk --source world.toml --colour world.toml");
+    EXPECT_EQ(verified.exitCode, 0) << verified.output << verified.errors;
+    EXPECT_THAT(verified.output, HasSubstr("6 compared with the image, 0 problems"));
+}
+
+TEST(RasterProgram, SkippedFilesAreNamedAndCounted) {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(regions + "N49W123.tif", folder.path() / "good.tif");
+    std::ofstream(folder / "broken.tif") << "II*\n";
+    const Ran refused = runWorldy(folder, "bake '*.tif' --face-size 65 -o a.chk");
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_THAT(refused.errors, AllOf(HasSubstr("broken.tif"), HasSubstr("--skip-broken leaves it out")));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.chk"));
+    const Ran baked = runWorldy(folder, "bake '*.tif' --skip-broken --face-size 65 -o a.chk");
+    EXPECT_EQ(baked.exitCode, 0) << baked.errors;
+    EXPECT_THAT(baked.errors, HasSubstr("worldy: skipped broken.tif"));
+    const Ran info = runWorldy(folder, "info a.chk --json");
+    EXPECT_THAT(nlohmann::json::parse(info.output)["source"].get<std::string>(), HasSubstr("1 file skipped"));
+}
+
 TEST(RasterProgram, PatternWithoutFilesIsRefused) {
     const TemporaryFolder folder;
     const Ran baked = runWorldy(folder, "bake 'none/*.tif' -o none.chk");

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "planet/bake/bake.h"
+#include "planet/bake/colour_estimate.h"
 #include "planet/bake/colour_report.h"
 #include "planet/bake/colour_tile_sampling.h"
 #include "planet/bake/file_report.h"
@@ -35,7 +36,7 @@ Result<BakeReport> bakeWithColours(const std::filesystem::path& path, BakeSettin
 void visitTiles(const ChunkFile& file, const TileData& tile,
                 const std::function<void(const TileData&)>& visit) {
     visit(tile);
-    if (tile.id.level == file.info().colour->leafLevel) return;
+    if (!tile.children.exists()) return;
     const auto children = file.readColourChildren(tile.id, tile.children);
     ASSERT_TRUE(children) << children.error().message;
     for (const TileData& child : *children) visitTiles(file, child, visit);
@@ -68,6 +69,39 @@ TEST(ColourBake, EveryTileOfEveryLevelIsTheSourcesOwn) {
         EXPECT_GT(report->colourBytes, 0u);
         EXPECT_LT(report->colourBytes, report->fileBytes);
     }
+}
+
+TEST(ColourBake, TilesAreAsDeepAsTheColoursAreFine) {
+    const TemporaryFolder folder;
+    ColourSource colours = test::mottledColours(2049);
+    const ChunkId fine{Face::PosY, 3, 5, 2};
+    colours.finestCells = [&](const ChunkId& square) {
+        const bool meets =
+            square.level <= 3 ? ancestorOf(fine, square.level) == square : ancestorOf(square, 3) == fine;
+        return meets ? 2048 : 256;
+    };
+    BakeSettings settings;
+    settings.chunkSize = 17;
+    settings.faceSize = 33;
+    for (const int threads : {1, 3}) {
+        settings.threads = threads;
+        const auto path = folder / (threads == 1 ? "one.chk" : "three.chk");
+        const auto report = bake(test::hillsSource(), settings, path, {}, &colours);
+        ASSERT_TRUE(report) << report.error().message;
+        // Six roots, and four tiles on each of the levels 1 to 3.
+        EXPECT_EQ(report->colourTiles, 6u + 3 * 4);
+        const ChunkFile file = ChunkFile::open(path).value();
+        EXPECT_EQ(file.info().colour->leafLevel, 3);
+        const auto levels = reportColours(file).value();
+        ASSERT_EQ(levels.size(), 4u);
+        for (std::size_t level = 1; level < 4; ++level) EXPECT_EQ(levels[level].tiles, 4u);
+        const ColourVerifyReport verified = verifyColours(file, &colours, {}).value();
+        EXPECT_EQ(verified.problemCount, 0u) << verified.problems[0];
+        EXPECT_EQ(verified.compared, 18u);
+        const auto estimate = estimateColours(colours, settings.colour, 1).value();
+        EXPECT_EQ(estimate.tiles, 18u);
+    }
+    EXPECT_EQ(contentOf(folder / "one.chk"), contentOf(folder / "three.chk"));
 }
 
 TEST(ColourBake, ManyThreadsGiveTheSameBytesAsOne) {

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/planet/source/height_source_fixture.h"
+#include "tests/planet/source/raster_fixture.h"
 #include "tests/support/synthetic_colours.h"
 #include "tests/support/temporary_folder.h"
 
@@ -192,6 +193,109 @@ TEST(ColourSource, HeightsMustStillBeOneChannel) {
     const auto source = openHeightSource(folder / "rgb.png", {});
     ASSERT_FALSE(source);
     EXPECT_NE(source.error().message.find("expected one grey channel"), std::string::npos);
+}
+
+using test::finest;
+using test::gridAround;
+using test::SampleGrid;
+using test::writeRaster;
+
+// The sRGB of a colour at a place on the finest grid, [0, 255].
+glm::dvec3 srgbNear(const ColourSource& source, double latitudeDeg, double longitudeDeg) {
+    const FacePoint point = facePointFromDirection(
+        directionFromGeographic({latitudeDeg * test::radPerDeg, longitudeDeg * test::radPerDeg}));
+    const auto at = [](double coordinate) {
+        return static_cast<int>(std::lround((coordinate + 1) / 2 * finest));
+    };
+    std::vector<glm::vec3> out(1);
+    EXPECT_TRUE(source.sample({point.face, finest, at(point.u), at(point.v), 1, 1}, out));
+    glm::dvec3 srgb;
+    for (int channel = 0; channel < 3; ++channel) {
+        const auto linear = static_cast<double>(out[0][channel]);
+        srgb[channel] =
+            255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+    }
+    return srgb;
+}
+
+void expectNear(const glm::dvec3& colour, const glm::dvec3& expected) {
+    for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(colour[channel], expected[channel], 0.1) << channel;
+}
+
+// Bands of one value each.
+std::vector<std::vector<float>> bandsOf(const SampleGrid& grid, const std::vector<float>& values) {
+    std::vector<std::vector<float>> bands;
+    for (const float value : values)
+        bands.emplace_back(static_cast<std::size_t>(grid.width * grid.height), value);
+    return bands;
+}
+
+TEST(ColourSource, GeoreferencedPicturesAreReadByTheirBandsColours) {
+    const TemporaryFolder folder;
+    const SampleGrid grid = gridAround(32632, 9, 46, 51, 51, 100);
+    writeRaster(folder / "rgb.tif", grid, std::vector<float>(),
+                {.type = GDT_Byte, .bands = 3, .bandSamples = bandsOf(grid, {200, 100, 50})});
+    writeRaster(folder / "rgba.tif", grid, std::vector<float>(),
+                {.type = GDT_Byte,
+                 .bands = 4,
+                 .bandSamples = bandsOf(grid, {200, 100, 50, 255}),
+                 .options = {"PHOTOMETRIC=RGB", "ALPHA=YES"}});
+    writeRaster(
+        folder / "16.tif", grid, std::vector<float>(),
+        {.type = GDT_UInt16, .bands = 3, .bandSamples = bandsOf(grid, {200 * 257, 100 * 257, 50 * 257})});
+    writeRaster(folder / "palette.tif", grid, std::vector<float>(51 * 51, 1),
+                {.type = GDT_Byte, .palette = {{9, 9, 9, 255}, {200, 100, 50, 255}}});
+    for (const char* name : {"rgb.tif", "rgba.tif", "16.tif", "palette.tif"}) {
+        SCOPED_TRACE(name);
+        const auto source = openColourSource(folder / name);
+        ASSERT_TRUE(source) << source.error().message;
+        expectNear(srgbNear(*source, 46, 9), {200, 100, 50});
+        expectNear(srgbNear(*source, 46.1, 9), {0, 0, 0});
+        ASSERT_TRUE(source->finestCells);
+        EXPECT_EQ(source->finestCells({Face::NegX, 3, 0, 0}), 1);
+    }
+    writeRaster(folder / "grey.tif", grid, std::vector<float>(51 * 51, 70), {.type = GDT_Byte});
+    const auto grey = openColourSource(folder / "grey.tif");
+    ASSERT_TRUE(grey) << grey.error().message;
+    expectNear(srgbNear(*grey, 46, 9), {70, 70, 70});
+}
+
+TEST(ColourSource, LayersOfColourShowWhatLiesUnderTheirVoids) {
+    const TemporaryFolder folder;
+    test::writeColours<std::uint8_t>(folder / "base.png", 64, 32, 3,
+                                     [](int, int, int channel) { return 30.0 * (channel + 1); });
+    const SampleGrid grid = gridAround(4326, 10, 45, 101, 101, 0.01);
+    std::vector<std::vector<float>> bands = bandsOf(grid, {0, 250, 0});
+    // A pixel is a void if all of its bands have the no-data value, which is also the red of the others.
+    for (int row = 40; row <= 60; ++row) {
+        for (int column = 40; column <= 60; ++column)
+            bands[1][static_cast<std::size_t>(row * 101 + column)] = 0;
+    }
+    writeRaster(folder / "inset.tif", grid, std::vector<float>(),
+                {.type = GDT_Byte, .bands = 3, .noData = 0, .bandSamples = bands});
+    writeBytes(folder / "world.toml",
+               "[[colour]]\nfiles = \"base.png\"\n[[colour]]\nfiles = \"inset.tif\"\n");
+    EXPECT_TRUE(hasColourLayers(folder / "world.toml"));
+    const auto source = openColourSource(folder / "world.toml");
+    ASSERT_TRUE(source) << source.error().message;
+    EXPECT_EQ(source->description, "world.toml, 2 layers");
+    expectNear(srgbNear(*source, 45.4, 10), {0, 250, 0});
+    expectNear(srgbNear(*source, 45, 10), {30, 60, 90});
+    expectNear(srgbNear(*source, -20, 100), {30, 60, 90});
+    EXPECT_EQ(source->finestCells({Face::NegZ, 0, 0, 0}), 32) << "those of the base";
+    EXPECT_THAT(errorOf(folder / "world.toml"),
+                testing::HasSubstr("has no layers of elevation; expected tables [[elevation]]"));
+}
+
+TEST(ColourSource, LayersOfColourHaveNoKeysOfHeights) {
+    const TemporaryFolder folder;
+    writeBytes(folder / "world.toml", "[[colour]]\nfiles = \"base.png\"\nscale = 2\n");
+    const auto source = openColourSource(folder / "world.toml");
+    ASSERT_FALSE(source);
+    EXPECT_THAT(
+        source.error().message,
+        testing::HasSubstr("scale is no key of a layer of colour; expected one of name, files, feather_m"));
 }
 
 }  // namespace

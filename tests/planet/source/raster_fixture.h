@@ -83,7 +83,9 @@ struct RasterFile {
     std::optional<double> scale{};
     std::optional<double> offset{};
     std::string unit{};
-    std::vector<std::uint8_t> mask{};  // 0: hidden; empty: no mask
+    std::vector<std::uint8_t> mask{};               // 0: hidden; empty: no mask
+    std::vector<std::vector<float>> bandSamples{};  // of each band; empty: all bands have the same
+    std::vector<GDALColorEntry> palette{};          // empty: no colour table
     std::vector<const char*> options{};
 };
 
@@ -122,8 +124,16 @@ inline void writeRaster(const std::filesystem::path& path, const SampleGrid& gri
     GDALSetMetadataItem(dataSet, "AREA_OR_POINT", file.isPoint ? "Point" : "Area", nullptr);
     for (int i = 1; i <= file.bands; ++i) {
         const GDALRasterBandH band = GDALGetRasterBand(dataSet, i);
+        if (!file.bandSamples.empty()) samples = file.bandSamples[static_cast<std::size_t>(i - 1)];
         require(GDALRasterIO(band, GF_Write, 0, 0, grid.width, grid.height, samples.data(), grid.width,
                              grid.height, GDT_Float32, 0, 0) == CE_None);
+        if (!file.palette.empty()) {
+            const GDALColorTableH table = GDALCreateColorTable(GPI_RGB);
+            for (std::size_t k = 0; k < file.palette.size(); ++k)
+                GDALSetColorEntry(table, static_cast<int>(k), &file.palette[k]);
+            require(GDALSetRasterColorTable(band, table) == CE_None);
+            GDALDestroyColorTable(table);
+        }
         if (file.noData) GDALSetRasterNoDataValue(band, *file.noData);
         if (file.scale) GDALSetRasterScale(band, *file.scale);
         if (file.offset) GDALSetRasterOffset(band, *file.offset);
