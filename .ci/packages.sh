@@ -40,6 +40,7 @@ libx11-dev              drops files onto the window in its tests
 x11-xserver-utils       says how fine that display is
 xdotool                 presses keys in the window's tests
 imagemagick             takes their screenshots
+gdal-bin                what a bake is measured against
 clang                   fuzzers, and a second compiler
 libclang-rt-14-dev      its fuzzer and sanitizers"
 

@@ -251,6 +251,7 @@ picture_light_panel() {
 # Views of planets made for them, with every part of light, in software too.
 bake() { [ -f "$1" ] || "$binary" bake "${@:2}" -o "$1" >/dev/null 2>&1 || failures=$((failures + 1)); }
 detailed_earth() { bake earth_amplified.chk preset:earth-amplified --face-size 4097 --colour earth/colour.jpg; }
+regions() { bake regions.chk "$here/data/earth/earth.toml" --colour earth/colour.jpg; }
 ridged_world() { bake ridged.chk preset:ridged; }
 small_world() {
     bake ridge.chk noise:ridged,seed=9,gain=0.5,amplitude_m=2600,feature_deg=6,offset_m=900 --radius 300000 \
@@ -281,7 +282,19 @@ view_ridged_world() {
     view ridged_world ridged.chk 25,40,900000,20,-60 15 85 --set light.air_rayleigh=0.4 --set light.air_haze=0.5
 }
 
-for name in whole_earth sunset_limb himalaya coast ridge ridged_world; do
+view_andes() {
+    regions
+    view andes regions.chk -32.95,-70.45,9000,48,-10 -25 -110 --set light.air_rayleigh=0.5 \
+        --set light.air_haze=0.3 --set surface.layer_use=off
+}
+view_andes_rim() {
+    regions
+    "$binary" shot regions.chk --camera -35.2,-70.5,230000,0,-42 --size 1280x720 --tau 1 -o view.png \
+        --set overlay.outlines=true --set overlay.colour_by=level --set overlay.opacity=0.35 >/dev/null &&
+        convert view.png -strip -quality 88 "$out/andes_rim.jpg" || failures=$((failures + 1))
+}
+
+for name in whole_earth sunset_limb himalaya coast ridge ridged_world andes andes_rim; do
     asked $name || continue
     echo "$name"
     view_$name
