@@ -44,6 +44,11 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
                                          {"colour_tiles", report.colourTiles},
                                          {"colour_bytes", report.colourBytes},
                                          {"colour_notice", report.colourNotice},
+                                         {"reuse", options.settings.reuse.string()},
+                                         {"copied_chunks", report.copiedChunks},
+                                         {"copied_colour_tiles", report.copiedColourTiles},
+                                         {"sampled_cells", report.sampledCells},
+                                         {"reuse_notice", report.reuseNotice},
                                          {"seconds", report.seconds}};
     fmt::print("{}", jsonText(json));
 }
@@ -67,6 +72,9 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
         fmt::print("{} colour tiles, {}\n", report.colourTiles,
                    bytesText(static_cast<double>(report.colourBytes)));
     }
+    if (!options.settings.reuse.empty()) {
+        fmt::print("{} from {}\n", copiedText(report), options.settings.reuse.string());
+    }
     fmt::print("max root error: delta_c {}, tight {}\n",
                distanceText(static_cast<double>(report.largestDeltaCM)),
                distanceText(static_cast<double>(report.largestDeltaTightM)));
@@ -83,6 +91,7 @@ void printWarnings(const planet::HeightSource& source, const BakeOptions& option
                      report.missingSamples, instead);
     }
     if (!report.colourNotice.empty()) printMessage("worldy: {}\n", report.colourNotice);
+    if (!report.reuseNotice.empty()) printMessage("worldy: {}\n", reuseText(report));
 }
 
 void printField(const planet::TerrainField& field, const planet::TerrainSettings& defaults) {

@@ -251,7 +251,7 @@ std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& inf
     out.put(info.minStep);
     out.put(info.maxStep);
     out.put(static_cast<std::uint8_t>(info.coarsestLeafLevel));
-    out.put(std::uint8_t{0});
+    out.put(static_cast<std::uint8_t>(info.hasSourceRecord));
     out.put(info.missingSamples);
     out.put(info.chunks);
     for (const BlockLocation& root : info.roots) {
@@ -314,7 +314,7 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     info.minStep = in.get<std::int16_t>();
     info.maxStep = in.get<std::int16_t>();
     info.coarsestLeafLevel = in.get<std::uint8_t>();
-    in.take(1);
+    info.hasSourceRecord = in.get<std::uint8_t>() == 1;
     info.missingSamples = in.get<std::uint64_t>();
     info.chunks = in.get<std::uint64_t>();
     if (const std::string problem = treeProblem(info); !problem.empty())

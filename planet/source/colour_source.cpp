@@ -49,6 +49,10 @@ Result<ColourSource> openColourSource(const std::filesystem::path& path, std::si
     source.description = channels[0].description;
     source.naturalFaceSize = channels[0].naturalFaceSize;
     source.notice = std::ranges::max_element(channels, {}, &HeightSource::seamEdges)->notice;
+    source.signature = [parts = channels[0].parts]() -> Result<std::uint64_t> {
+        TRY_ASSIGN(const auto made, parts());
+        return made[0].signature;
+    };
     source.sample = [channels = std::move(channels)](const SampleTile& tile, std::span<glm::vec3> out) {
         return sampleInPieces(tile, colourPieceSide, out,
                               [&](const SampleTile& piece, glm::vec3* to, std::size_t stride) {

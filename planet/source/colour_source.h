@@ -23,6 +23,9 @@ struct ColourSource {
     // The warning that six faces differ along the cube's edges, with visible seams; empty if they agree.
     std::string notice{};
 
+    // Returns a hash of what the colours depend on. Reads the files. Null: unknown.
+    std::function<Result<std::uint64_t>()> signature{};
+
     // Fills out, row-major, with columns x rows colours in linear light, [0, 1]. Like HeightSource::sample,
     // it filters to the grid's spacing and returns the same bits on an edge of the cube from either face.
     std::function<Result<void>(const SampleTile& tile, std::span<glm::vec3> out)> sample;

@@ -1,0 +1,32 @@
+#include "planet/source/raster_parts.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include "planet/base/try.h"
+#include "planet/source/height_source.h"
+#include "planet/source/source_parts.h"
+
+namespace planet {
+
+Result<SourcePart> partOf(const RasterArea& area, std::uint64_t settings) {
+    Fingerprint fingerprint;
+    fingerprint.add(settings);
+    std::vector<std::filesystem::path> files;
+    for (const RasterMosaic::Tile& tile : area.mosaic.tiles()) {
+        const HeightSourceFiles ofTile = heightSourceFiles(tile.raster->path());
+        fingerprint.add(static_cast<std::uint64_t>(ofTile.files.size()));
+        files.insert(files.end(), ofTile.files.begin(), ofTile.files.end());
+    }
+    TRY_ASSIGN(const auto hash, hashOfFiles(files));
+    fingerprint.add(hash);
+    // A place counts if the sample nearest to it lies on a tile, so the cap of the samples needs a margin of a
+    // sample at most. Feathers and the filter reach inwards.
+    const double sampleRad = area.samplesPerRad > 0 ? 1 / area.samplesPerRad : 0;
+    const double radiusRad = std::min(area.radiusRad + 4 * sampleRad + 1e-9, std::numbers::pi);
+    return SourcePart{fingerprint.hash(), area.centre, radiusRad};
+}
+
+}  // namespace planet
