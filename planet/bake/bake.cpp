@@ -347,10 +347,22 @@ Result<void> writeColours(const ColourSource& source, const BakeSettings& settin
 }
 
 // Opens the earlier bake of the settings; nothing, and the reason in notice, if it cannot be used.
-std::optional<EarlierBake> earlierBake(const BakeSettings& settings,
-                                       const std::optional<SourceRecord>& record, std::string& notice) {
+std::optional<EarlierBake> earlierBake(const HeightSource& source, const BakeSettings& settings,
+                                       const PlanetShape& shape, const std::optional<SourceRecord>& record,
+                                       std::string& notice) {
     if (settings.reuse.empty()) return std::nullopt;
-    if (record) return EarlierBake::open(settings.reuse, *record, notice);
+    Result<ChunkFile> file = ChunkFile::open(settings.reuse);
+    if (!file) {
+        notice = file.error().message;
+        return std::nullopt;
+    }
+    if (record) {
+        auto earlier = EarlierBake::make(*std::move(file), source, shape, *record, notice);
+        if (earlier && !earlier->difference().empty())
+            notice = fmt::format("{}: no chunk was copied from it, because {}", settings.reuse.string(),
+                                 earlier->difference());
+        return earlier;
+    }
     notice = fmt::format("{}: nothing was copied from it, because the source cannot say what it depends on",
                          settings.reuse.string());
     return std::nullopt;
@@ -374,9 +386,10 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     }
 
     BakeReport report;
-    const std::optional<SourceRecord> record = recordOf(source, settings, colour);
-    const std::optional<EarlierBake> earlier = earlierBake(settings, record, report.reuseNotice);
-    const bool mayCopy = earlier && earlier->hasSameHeights(shape, report.reuseNotice);
+    const std::optional<SourceRecord> record = recordOf(source, settings, shape, colour);
+    const std::optional<EarlierBake> earlier =
+        earlierBake(source, settings, shape, record, report.reuseNotice);
+    const bool mayCopy = earlier && earlier->difference().empty();
     TRY_ASSIGN(auto file, AtomicFile::create(output, settings.fileCalls));
     TRY(file.append(std::vector<std::byte>(chunkFileHeaderBytes)));
     Assembler assembler(context, file);

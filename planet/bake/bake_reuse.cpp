@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -48,6 +50,29 @@ bool sameParts(std::span<const SourcePart> some, std::span<const SourcePart> oth
         some = some.subspan(1);
         others = others.subspan(1);
     }
+}
+
+// Returns whether the heights of a part in a cap can depend on the grid of a filter, of a spacing or finer.
+bool dependsOnFilter(const SourcePart& part, const DirectionCone& cap, double spacingRad) {
+    const double farthest = std::asin(std::min(1.0, std::abs(cap.axis.z))) + cap.halfAngleRad + 1e-7;
+    const double narrowest = farthest < std::numbers::pi / 2 ? std::cos(farthest) : 0;
+    const double along = part.densities.alongPerRad * spacingRad;
+    const double around = part.densities.aroundPerRad * spacingRad;
+    // The margin is for rounding.
+    return !(along < 1 - 1e-9) || !(around <= 0 || around < narrowest * (1 - 1e-9));
+}
+
+// Returns what forbids to copy heights from a planet of another shape; empty if nothing does.
+std::string differenceOf(const PlanetShape& old, const PlanetShape& now) {
+    if (old.radiusM != now.radiusM)
+        return fmt::format("its radius is {} m, and that of the new bake {} m", old.radiusM, now.radiusM);
+    if (old.quantumM != now.quantumM || old.baseHeightM != now.baseHeightM) {
+        return fmt::format(
+            "it stores heights in steps of {} m from {} m, and the new bake in steps of {} m from {} m",
+            old.quantumM, old.baseHeightM, now.quantumM, now.baseHeightM);
+    }
+    if (old.chunkCellsLog2 == now.chunkCellsLog2) return {};
+    return fmt::format("its chunk size is {}, and that of the new bake {}", chunkSize(old), chunkSize(now));
 }
 
 // --- Copying
@@ -242,7 +267,7 @@ Result<std::vector<ColourBlock>> colourBlocks(const ChunkFile& file) {
 }  // namespace
 
 std::optional<SourceRecord> recordOf(const HeightSource& source, const BakeSettings& settings,
-                                     const ColourSource* colour) {
+                                     const PlanetShape& shape, const ColourSource* colour) {
     if (!source.parts) return std::nullopt;
     Result<std::vector<SourcePart>> parts = source.parts();
     if (!parts || parts->size() > mostSourceParts) return std::nullopt;
@@ -250,7 +275,7 @@ std::optional<SourceRecord> recordOf(const HeightSource& source, const BakeSetti
     record.settings = Fingerprint()
                           .add(bakeRevision)
                           .add(std::int32_t{settings.compressionLevel})
-                          .add(std::int32_t{settings.tileLevels.value_or(-1)})
+                          .add(std::int32_t{leafLevel(shape) - tileLevelOf(shape, settings.tileLevels)})
                           .hash();
     record.minM = source.minM;
     record.maxM = source.maxM;
@@ -269,80 +294,74 @@ std::optional<SourceRecord> recordOf(const HeightSource& source, const BakeSetti
     return record;
 }
 
-std::optional<EarlierBake> EarlierBake::open(const std::filesystem::path& path, const SourceRecord& record,
+std::optional<EarlierBake> EarlierBake::make(ChunkFile file, const HeightSource& source,
+                                             const PlanetShape& shape, const SourceRecord& record,
                                              std::string& notice) {
-    Result<ChunkFile> file = ChunkFile::open(path);
-    if (!file) {
-        notice = file.error().message;
-        return std::nullopt;
-    }
-    Result<std::optional<SourceRecord>> earlier = file->readSourceRecord();
+    Result<std::optional<SourceRecord>> earlier = file.readSourceRecord();
     if (!earlier || !*earlier) {
         notice = earlier
                      ? fmt::format(
                            "{}: nothing was copied from it, because it does not say what it was baked from",
-                           path.string())
+                           file.name())
                      : earlier.error().message;
         return std::nullopt;
     }
     SourceRecord& old = **earlier;
-    EarlierBake bake(*std::move(file));
-    bake.hasSameSettings_ = old.settings == record.settings;
-    bake.hasSameColours_ =
-        old.colours != 0 && old.colours == record.colours && bake.file_.info().colour.has_value();
-    bake.parts_ = std::move(old.parts);
-    bake.newParts_ = record.parts;
-    const auto [end, newEnd] = std::mismatch(bake.parts_.rbegin(), bake.parts_.rend(),
-                                             bake.newParts_.rbegin(), bake.newParts_.rend());
-    bake.parts_.erase(end.base(), bake.parts_.end());
-    bake.newParts_.erase(newEnd.base(), bake.newParts_.end());
-    const auto [begin, newBegin] =
-        std::mismatch(bake.parts_.begin(), bake.parts_.end(), bake.newParts_.begin(), bake.newParts_.end());
-    bake.parts_.erase(bake.parts_.begin(), begin);
-    bake.newParts_.erase(bake.newParts_.begin(), newBegin);
-    bake.minM_ = -std::numeric_limits<double>::infinity();
-    bake.maxM_ = std::numeric_limits<double>::infinity();
-    if (old.minM == record.minM && old.maxM == record.maxM) return bake;
-    // A step of the file is up to half a quantum off, and the ranges are rounded to floats.
-    const double largestM =
-        std::max({std::abs(old.minM), std::abs(old.maxM), std::abs(record.minM), std::abs(record.maxM)});
-    const double marginM = 2 * bake.file_.info().shape.quantumM + 1e-6 * largestM;
-    bake.minM_ = std::max(old.minM, record.minM) + marginM;
-    bake.maxM_ = std::min(old.maxM, record.maxM) - marginM;
+    EarlierBake bake(std::move(file));
+    bake.source_ = &source;
+    bake.difference_ = differenceOf(bake.file_.info().shape, shape);
+    if (bake.difference_.empty() && old.settings != record.settings)
+        bake.difference_ = "it was baked with other settings or by another version of this program";
+    bake.hasSameColours_ = old.colours != 0 && old.colours == record.colours && bake.file_.info().colour;
+    bake.compareParts(std::move(old.parts), record.parts);
+    bake.compareRanges(old, record);
+    bake.compareFilters(shape, record.parts);
     return bake;
 }
 
-bool EarlierBake::hasSameHeights(const PlanetShape& shape, std::string& notice) const {
+// Keeps the parts that differ: those at the beginning and at the end that are the same in both do not.
+void EarlierBake::compareParts(std::vector<SourcePart> old, std::vector<SourcePart> now) {
+    const auto [end, newEnd] = std::mismatch(old.rbegin(), old.rend(), now.rbegin(), now.rend());
+    old.erase(end.base(), old.end());
+    now.erase(newEnd.base(), now.end());
+    const auto [begin, newBegin] = std::mismatch(old.begin(), old.end(), now.begin(), now.end());
+    parts_.assign(begin, old.end());
+    newParts_.assign(newBegin, now.end());
+}
+
+void EarlierBake::compareRanges(const SourceRecord& old, const SourceRecord& now) {
+    minM_ = -std::numeric_limits<double>::infinity();
+    maxM_ = std::numeric_limits<double>::infinity();
+    if (old.minM == now.minM && old.maxM == now.maxM) return;
+    // A step of the file is up to half a quantum off, and the ranges are rounded to floats.
+    const double largestM =
+        std::max({std::abs(old.minM), std::abs(old.maxM), std::abs(now.minM), std::abs(now.maxM)});
+    const double marginM = 2 * file_.info().shape.quantumM + 1e-6 * largestM;
+    minM_ = std::max(old.minM, now.minM) + marginM;
+    maxM_ = std::min(old.maxM, now.maxM) - marginM;
+}
+
+void EarlierBake::compareFilters(const PlanetShape& shape, const std::vector<SourcePart>& parts) {
     const PlanetShape& old = file_.info().shape;
-    const auto differs = [&](const std::string& what) {
-        notice = fmt::format("{}: no chunk was copied from it, because {}", file_.name(), what);
-        return false;
-    };
-    if (!hasSameSettings_)
-        return differs("it was baked with other settings or by another version of this program");
-    if (old.radiusM != shape.radiusM)
-        return differs(
-            fmt::format("its radius is {} m, and that of the new bake {} m", old.radiusM, shape.radiusM));
-    if (old.quantumM != shape.quantumM || old.baseHeightM != shape.baseHeightM) {
-        return differs(fmt::format(
-            "its heights are {} m and steps of {} m, and those of the new bake {} m and steps of {} m",
-            old.baseHeightM, old.quantumM, shape.baseHeightM, shape.quantumM));
-    }
-    if (old.chunkCellsLog2 != shape.chunkCellsLog2)
-        return differs(fmt::format("its chunk size is {}, and that of the new bake {}", chunkSize(old),
-                                   chunkSize(shape)));
-    if (old.faceCellsLog2 != shape.faceCellsLog2) {
-        return differs(fmt::format("its face size is {}, and that of the new bake {}", faceCells(old) + 1,
-                                   faceCells(shape) + 1));
-    }
-    return true;
+    if (old.faceCellsLog2 == shape.faceCellsLog2) return;
+    cells_ = std::min(faceCells(old), faceCells(shape));
+    spacingRad_ = std::numbers::pi / 2 / cells_;
+    std::ranges::copy_if(parts, std::back_inserter(filtered_), [&](const SourcePart& part) {
+        return dependsOnFilter(part, {part.centre, part.radiusRad}, spacingRad_);
+    });
 }
 
 bool EarlierBake::isUnchanged(const ChunkData& chunk) const {
     const PlanetShape& shape = file_.info().shape;
     if (heightM(shape, chunk.minStep) < minM_ || heightM(shape, chunk.maxStep) > maxM_) return false;
-    return (parts_.empty() && newParts_.empty()) ||
-           sameParts(parts_, newParts_, chunkDirections(chunk.id).cone);
+    // Where data is finer than the coarser of both face sizes, the trees may differ too.
+    if (cells_ > 0 && (!source_->finestCells || source_->finestCells(chunk.id) > cells_)) return false;
+    if (parts_.empty() && newParts_.empty() && filtered_.empty()) return true;
+    const DirectionCone square = chunkDirections(chunk.id).cone;
+    return sameParts(parts_, newParts_, square) &&
+           std::ranges::none_of(filtered_, [&](const SourcePart& part) {
+               return touches(part, square) && dependsOnFilter(part, square, spacingRad_);
+           });
 }
 
 BakeWalk::BakeWalk(const HeightSource& source, const PlanetShape& shape, int unitLevels,

@@ -3,7 +3,8 @@
 // A chunk file says what it was baked from, part by part, and where each part has influence (source_record.h). A
 // chunk is unchanged if the same parts, in the same order, have influence on its square, and all settings that
 // heights depend on are the same. If the range of the source has changed, to which heights are clamped, the chunk's
-// heights must also lie inside both ranges. Then the blocks under the chunk are copied as they are: entries name
+// heights must also lie inside both ranges. If the face size has changed, for which the filter is made, both filters must
+// be finer than the samples of all its parts. Then the blocks under the chunk are copied as they are: entries name
 // their children by distance, so blocks that lie together can move.
 //
 // What is copied is the largest possible subtree that lies together in the file, but at most pieceLevels levels of
@@ -32,27 +33,34 @@ namespace planet {
 
 // Returns the record of a bake. Nothing if the source cannot say what it depends on.
 std::optional<SourceRecord> recordOf(const HeightSource& source, const BakeSettings& settings,
-                                     const ColourSource* colour);
+                                     const PlanetShape& shape, const ColourSource* colour);
 
 // An earlier bake, compared with the source of a new one. Any thread.
 class EarlierBake {
 public:
-    // Returns nothing, and the reason in notice, if the file cannot be used at all.
-    static std::optional<EarlierBake> open(const std::filesystem::path& path, const SourceRecord& record,
+    // source: of the new bake, with its shape and record; must outlive this. Returns nothing, and the reason in
+    // notice, if the file cannot be used at all.
+    static std::optional<EarlierBake> make(ChunkFile file, const HeightSource& source,
+                                           const PlanetShape& shape, const SourceRecord& record,
                                            std::string& notice);
 
     const ChunkFile& file() const { return file_; }
-    // Returns whether heights may be copied: the shape and the settings are the same.
-    bool hasSameHeights(const PlanetShape& shape, std::string& notice) const;
+    // Returns an empty text if heights may be copied: the shape and the settings are the same. Otherwise says
+    // what differs.
+    const std::string& difference() const { return difference_; }
     // Returns whether a chunk of the file comes out the same.
     bool isUnchanged(const ChunkData& chunk) const;
     bool hasSameColours() const { return hasSameColours_; }
 
 private:
     explicit EarlierBake(ChunkFile file) : file_(std::move(file)) {}
+    void compareParts(std::vector<SourcePart> old, std::vector<SourcePart> now);
+    void compareRanges(const SourceRecord& old, const SourceRecord& now);
+    void compareFilters(const PlanetShape& shape, const std::vector<SourcePart>& parts);
 
     ChunkFile file_;
-    bool hasSameSettings_ = false;
+    const HeightSource* source_ = nullptr;
+    std::string difference_;
     bool hasSameColours_ = false;
     // The parts without those at the beginning and at the end that are the same in both.
     std::vector<SourcePart> parts_;
@@ -60,6 +68,11 @@ private:
     // The heights that no range has clamped.
     double minM_ = 0;
     double maxM_ = 0;
+    // If the face sizes differ: the coarser filter's spacing, its cells along a face, and all parts of the new source
+    // that may depend on it.
+    double spacingRad_ = 0;
+    int cells_ = 0;
+    std::vector<SourcePart> filtered_;
 };
 
 // A chunk above all units of its subtree that has not changed.

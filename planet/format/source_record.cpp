@@ -16,7 +16,7 @@ namespace planet {
 namespace {
 
 constexpr std::size_t recordHeadBytes = 36;  // three hashes or numbers of 8 bytes, the colours and the count
-constexpr std::size_t partBytes = 40;
+constexpr std::size_t partBytes = 56;
 constexpr std::uint64_t recordSeed = std::uint64_t{7} << 53;  // no block's checksum has this seed
 
 std::uint64_t recordChecksum(std::span<const std::byte> bytes) {
@@ -43,6 +43,8 @@ std::vector<std::byte> sourceRecordBytes(const SourceRecord& record) {
         out.put(part.signature);
         for (int axis = 0; axis < 3; ++axis) out.put(part.centre[axis]);
         out.put(part.radiusRad);
+        out.put(part.densities.alongPerRad);
+        out.put(part.densities.aroundPerRad);
     }
     out.put(static_cast<std::uint32_t>(bytes.size()));
     out.put(recordChecksum(bytes));
@@ -84,7 +86,10 @@ Result<SourceRecord> sourceRecordFrom(std::span<const std::byte> bytes) {
         part.signature = in.get<std::uint64_t>();
         for (int axis = 0; axis < 3; ++axis) part.centre[axis] = in.get<double>();
         part.radiusRad = in.get<double>();
-        if (!isCap(part)) return badInput("its record of its source has a part that is not on the planet");
+        part.densities.alongPerRad = in.get<double>();
+        part.densities.aroundPerRad = in.get<double>();
+        if (!isCap(part) || !(part.densities.alongPerRad >= 0 && part.densities.aroundPerRad >= 0))
+            return badInput("its record of its source has a part that is not on the planet");
     }
     return record;
 }

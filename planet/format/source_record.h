@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,11 +14,22 @@
 
 namespace planet {
 
+// The samples of a source in a radian. Heights do not depend on the grid of the filter where it is finer than they are.
+struct SampleDensities {
+    double alongPerRad = std::numeric_limits<double>::infinity();  // in any direction; infinite: unknown
+    // Along the equator, of samples whose columns follow the meridians and come closer towards the poles; else 0.
+    double aroundPerRad = 0;
+
+    bool operator==(const SampleDensities&) const = default;
+};
+
 // A part of a source of heights, and where it has influence: a cap of the unit sphere.
 struct SourcePart {
-    std::uint64_t signature = 0;  // a hash of everything that its heights depend on
-    glm::dvec3 centre{1, 0, 0};   // unit
-    double radiusRad = 0;         // [0, pi]; pi: the whole planet
+    std::uint64_t signature =
+        0;  // a hash of everything that its heights depend on, but the grid of the filter
+    glm::dvec3 centre{1, 0, 0};  // unit
+    double radiusRad = 0;        // [0, pi]; pi: the whole planet
+    SampleDensities densities{};
 
     bool operator==(const SourcePart&) const = default;
 };
@@ -37,7 +49,7 @@ inline constexpr std::size_t mostSourceParts = 1u << 16;
 
 // The record ends in its length and a checksum.
 inline constexpr std::size_t sourceRecordTailBytes = 12;
-inline constexpr std::size_t mostSourceRecordBytes = 36 + 40 * mostSourceParts;
+inline constexpr std::size_t mostSourceRecordBytes = 36 + 56 * mostSourceParts;
 
 std::vector<std::byte> sourceRecordBytes(const SourceRecord& record);
 

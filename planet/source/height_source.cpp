@@ -103,15 +103,16 @@ namespace {
 
 // Returns the one part of an image, cube faces or a terrain text.
 std::function<Result<std::vector<SourcePart>>()> wholeSource(const std::filesystem::path& path,
-                                                             const HeightSourceSettings& settings) {
-    return [path, settings = hashOf(settings)]() -> Result<std::vector<SourcePart>> {
+                                                             const HeightSourceSettings& settings,
+                                                             const SampleDensities& densities) {
+    return [path, settings = hashOf(settings), densities]() -> Result<std::vector<SourcePart>> {
         const HeightSourceFiles source = heightSourceFiles(path);
         Fingerprint fingerprint;
         // Files count by their content; without any, the path is the text of a terrain.
         if (source.files.empty()) fingerprint.add(path.string());
         TRY_ASSIGN(const auto files, hashOfFiles(source.files));
         fingerprint.add(files).add(settings);
-        return std::vector{wholePlanet(fingerprint.hash())};
+        return std::vector{wholePlanet(fingerprint.hash(), densities)};
     };
 }
 
@@ -149,7 +150,7 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
     TRY(checkSettings(settings));
     Result<HeightSource> source = openAnySource(path, settings);
     // Rasters, worlds and detail have parts of their own; anything else is one.
-    if (source && !source->parts) source->parts = wholeSource(path, settings);
+    if (source && !source->parts) source->parts = wholeSource(path, settings, source->densities);
     return source;
 }
 

@@ -217,7 +217,7 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
             TRY_ASSIGN(auto parts, of());
             for (SourcePart& part : parts)
                 part.radiusRad = std::min(part.radiusRad + reachRad, std::numbers::pi);
-            parts.push_back(wholePlanet(hash));
+            parts.push_back(wholePlanet(hash, {}));
             return parts;
         };
     }

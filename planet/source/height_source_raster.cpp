@@ -203,7 +203,7 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
     source.minM = static_cast<double>(shared->minM);
     source.maxM = static_cast<double>(shared->maxM);
     source.parts = [shared, hash = hashOf(settings)]() -> Result<std::vector<SourcePart>> {
-        std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(shared->fillM).hash())};
+        std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(shared->fillM).hash(), {0, 0})};
         for (const RasterArea& area : shared->areas) {
             TRY_ASSIGN(const auto part, partOf(area, hash));
             parts.push_back(part);

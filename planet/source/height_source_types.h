@@ -56,6 +56,8 @@ struct HeightSource {
     // A message for each file that was left out because of HeightSourceSettings::skipBroken.
     std::vector<std::string> skipped{};
 
+    // Of a source that is one part; beyond them a finer filter changes nothing.
+    SampleDensities densities{};
     // Returns what the heights depend on, in the order in which it is joined: the heights of a place depend only on
     // the parts whose caps hold it and on the grid of the filter; they are clamped to [minM, maxM]. Reads the
     // files. Null: unknown. The Error names a file that cannot be read.

@@ -11,6 +11,19 @@
 
 namespace planet {
 
+namespace {
+
+SampleDensities densitiesOf(const RasterArea& area) {
+    const RasterPlacement& placement = area.mosaic.placement();
+    if (placement.columnsAround() > 0)
+        return {placement.rowsPerRad(), placement.columnsAround() / (2 * std::numbers::pi)};
+    // The sampling expects less than this factor between the middle of a tile and its edge.
+    constexpr double mostUneven = 2;
+    return {mostUneven * area.samplesPerRad, 0};
+}
+
+}  // namespace
+
 Result<SourcePart> partOf(const RasterArea& area, std::uint64_t settings) {
     Fingerprint fingerprint;
     fingerprint.add(settings);
@@ -26,7 +39,7 @@ Result<SourcePart> partOf(const RasterArea& area, std::uint64_t settings) {
     // sample at most. Feathers and the filter reach inwards.
     const double sampleRad = area.samplesPerRad > 0 ? 1 / area.samplesPerRad : 0;
     const double radiusRad = std::min(area.radiusRad + 4 * sampleRad + 1e-9, std::numbers::pi);
-    return SourcePart{fingerprint.hash(), area.centre, radiusRad};
+    return SourcePart{fingerprint.hash(), area.centre, radiusRad, densitiesOf(area)};
 }
 
 }  // namespace planet

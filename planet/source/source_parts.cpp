@@ -87,8 +87,8 @@ std::uint64_t hashOf(const HeightSourceSettings& settings) {
     return fingerprint.hash();
 }
 
-SourcePart wholePlanet(std::uint64_t signature) {
-    return {signature, {1, 0, 0}, std::numbers::pi};
+SourcePart wholePlanet(std::uint64_t signature, const SampleDensities& densities) {
+    return {signature, {1, 0, 0}, std::numbers::pi, densities};
 }
 
 }  // namespace planet

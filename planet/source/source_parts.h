@@ -41,6 +41,6 @@ Result<std::uint64_t> hashOfFiles(const std::vector<std::filesystem::path>& file
 std::uint64_t hashOf(const HeightSourceSettings& settings);
 
 // Returns a part that covers the planet.
-SourcePart wholePlanet(std::uint64_t signature);
+SourcePart wholePlanet(std::uint64_t signature, const SampleDensities& densities);
 
 }  // namespace planet

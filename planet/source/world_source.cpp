@@ -193,7 +193,7 @@ std::uint64_t hashOf(const WorldLayer& layer, const std::optional<VerticalDatum>
 }
 
 Result<std::vector<SourcePart>> partsOf(const World& world) {
-    std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(world.fillM).hash())};
+    std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(world.fillM).hash(), {0, 0})};
     for (const WorldPart& part : world.parts) {
         if (const auto* const rasters = std::get_if<std::unique_ptr<RasterPart>>(&part.content)) {
             TRY_ASSIGN(const auto made, partOf((*rasters)->area, part.settings));
