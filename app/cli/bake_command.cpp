@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #include "app/base/message.h"
 #include "app/base/report.h"
@@ -136,6 +137,12 @@ planet::Result<void> runBake(const BakeOptions& options) {
     if (options.listPresets) {
         printPresets();
         return {};
+    }
+    const std::filesystem::path& reuse = options.settings.reuse;
+    std::error_code unknown;
+    if (!reuse.empty() && !std::filesystem::exists(reuse, unknown)) {
+        return planet::ioError(
+            fmt::format("{}: no such file; expected an earlier bake to copy from", reuse.string()));
     }
     const planet::Result<NamedSource> named = sourceFrom(options);
     if (!named) return tl::unexpected(named.error());

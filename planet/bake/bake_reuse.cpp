@@ -163,8 +163,7 @@ private:
 Result<void> gatherLeaves(const ChunkFile& file, const PlanetShape& shape, const TreeUnit& unit,
                           const ChunkData& chunk, std::span<std::int16_t> steps) {
     if (chunk.children.exists() != (chunk.id.level < unit.leafLevel))
-        return badInput(fmt::format("{}: has changed while it was read; expected a file that stays as it is",
-                                    file.name()));
+        return badInput(fmt::format("{}: has changed while it was read; bake it again", file.name()));
     if (chunk.children.exists()) {
         TRY_ASSIGN(const auto children, file.readChildren(chunk.id, chunk.children, chunk.heights));
         for (const ChunkData& child : children) TRY(gatherLeaves(file, shape, unit, child, steps));

@@ -22,7 +22,8 @@ constexpr std::uint64_t rootSeed = std::uint64_t{1} << 63;
 // No key has these bits: y is below 2^maxLevel.
 constexpr std::uint64_t colourSeed = std::uint64_t{1} << 55;
 constexpr std::uint64_t colourRootSeed = std::uint64_t{3} << 54;
-static_assert(maxLevel <= 26);
+constexpr std::uint64_t recordSeed = std::uint64_t{7} << 53;
+static_assert(maxLevel <= 25);
 
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
@@ -234,6 +235,10 @@ std::uint64_t colourSiblingChecksum(std::span<const std::byte> bytes, const Chun
 
 std::uint64_t headerChecksum(std::span<const std::byte> bytes) {
     return checksum(bytes, 0);
+}
+
+std::uint64_t sourceRecordChecksum(std::span<const std::byte> bytes) {
+    return checksum(bytes, recordSeed);
 }
 
 std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes) {

@@ -1,7 +1,6 @@
 #include "planet/format/source_record.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <cassert>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "planet/base/little_endian.h"
 #include "planet/base/try.h"
+#include "planet/format/chunk_file_format.h"
 
 namespace planet {
 
@@ -17,11 +17,6 @@ namespace {
 
 constexpr std::size_t recordHeadBytes = 36;  // three hashes or numbers of 8 bytes, the colours and the count
 constexpr std::size_t partBytes = 56;
-constexpr std::uint64_t recordSeed = std::uint64_t{7} << 53;  // no block's checksum has this seed
-
-std::uint64_t recordChecksum(std::span<const std::byte> bytes) {
-    return XXH3_64bits_withSeed(bytes.data(), bytes.size(), recordSeed);
-}
 
 bool isCap(const SourcePart& part) {
     return std::abs(glm::length(part.centre) - 1) < 1e-6 && part.radiusRad >= 0 &&
@@ -47,7 +42,7 @@ std::vector<std::byte> sourceRecordBytes(const SourceRecord& record) {
         out.put(part.densities.aroundPerRad);
     }
     out.put(static_cast<std::uint32_t>(bytes.size()));
-    out.put(recordChecksum(bytes));
+    out.put(sourceRecordChecksum(bytes));
     return bytes;
 }
 
@@ -67,8 +62,8 @@ Result<SourceRecord> sourceRecordFrom(std::span<const std::byte> bytes) {
     const auto tail = bytes.last<sourceRecordTailBytes>();
     TRY_ASSIGN(const auto length, sourceRecordLength(tail));
     const bool isWhole = length + sourceRecordTailBytes == bytes.size();
-    if (!isWhole ||
-        readLittleEndian<std::uint64_t>(tail.data() + 4) != recordChecksum(bytes.first(bytes.size() - 8)))
+    if (!isWhole || readLittleEndian<std::uint64_t>(tail.data() + 4) !=
+                        sourceRecordChecksum(bytes.first(bytes.size() - 8)))
         return badInput("its record of its source is damaged: its checksum does not match");
     ByteReader in(bytes);
     SourceRecord record;
