@@ -20,14 +20,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "planet/bake/bake_tile.h"
 #include "planet/bake/bake_tree.h"
 #include "planet/base/atomic_file.h"
 #include "planet/format/chunk_file.h"
+#include "planet/source/colour_source.h"
 
 namespace planet {
 

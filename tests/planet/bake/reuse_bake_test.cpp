@@ -174,9 +174,11 @@ TEST_P(ReuseBake, aNameChangesNothing) {
 }
 
 TEST_P(ReuseBake, bakesHeightsThatTheRangeMayHaveClamped) {
-    // The range grows from 2000 m to 3000 m; only chunks near 2000 m can have been clamped.
-    const BakeReport report =
-        baked(std::string(base) + alps, std::string(base) + alps + "[[elevation]]\nfiles = \"high.tif\"\n");
+    // The range grows from 2000 m to 3000 m. The filter exceeds 2000 m beside the cliffs, until it is clamped.
+    writeRaster(folder / "cliffs.tif", gridAround(4326, -40, 10, 21, 21, 0.1),
+                [](double x, double y) { return std::sin(9 * x) * std::sin(8 * y) > 0 ? 2000 : -1000; });
+    const std::string before = std::string(base) + alps + "[[elevation]]\nfiles = \"cliffs.tif\"\n";
+    const BakeReport report = baked(before, before + "[[elevation]]\nfiles = \"high.tif\"\n");
     EXPECT_GT(report.copiedChunks, 0u);
     EXPECT_GT(report.sampledCells, 0u);
 }
@@ -223,8 +225,9 @@ TEST_P(ReuseBake, copiesWhatIsCoarserThanBothFiltersIfTheFaceSizeChanges) {
         return std::round(500 + 400 * std::sin(90 * x) * std::cos(70 * y));
     });
     const std::string fine = "[[elevation]]\nfiles = \"fine.tif\"\n";
-    // The island stays as it is; the Alps lie farther north, where their columns stand closer than the filter's.
-    const std::string before = std::string(base) + alps + island;
+    // In the north, columns stand closer than the samples of the coarser filter.
+    writeFine("north.tif", 100, 70, 900);
+    const std::string before = std::string(base) + alps + island + "[[elevation]]\nfiles = \"north.tif\"\n";
     const BakeReport finer = baked(before, before + fine);
     expectMostCopied(finer);
     EXPECT_NE(faceCells(finer.shape), faceCells(ChunkFile::open(folder / "old.chk").value().info().shape));
