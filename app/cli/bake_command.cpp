@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 
 #include "app/base/message.h"
 #include "app/base/process_memory.h"
@@ -55,6 +56,11 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
         {"colour_tiles", report.colourTiles},
         {"colour_bytes", report.colourBytes},
         {"colour_notice", report.colourNotice},
+        {"reuse", options.settings.reuse.string()},
+        {"copied_chunks", report.copiedChunks},
+        {"copied_colour_tiles", report.copiedColourTiles},
+        {"sampled_cells", report.sampledCells},
+        {"reuse_notice", report.reuseNotice},
         {"reads_per_sample", reads ? nlohmann::ordered_json(*reads) : nullptr},
         {"peak_memory_bytes", peakProcessBytes()},
         {"seconds", report.seconds}};
@@ -86,6 +92,9 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
         fmt::print("{} colour tiles, {}\n", report.colourTiles,
                    bytesText(static_cast<double>(report.colourBytes)));
     }
+    if (!options.settings.reuse.empty()) {
+        fmt::print("{} from {}\n", copiedText(report), options.settings.reuse.string());
+    }
     fmt::print("max root error: delta_c {}, tight {}\n",
                distanceText(static_cast<double>(report.largestDeltaCM)),
                distanceText(static_cast<double>(report.largestDeltaTightM)));
@@ -102,6 +111,7 @@ void printWarnings(const planet::HeightSource& source, const BakeOptions& option
                      report.missingSamples, instead);
     }
     if (!report.colourNotice.empty()) printMessage("worldy: {}\n", report.colourNotice);
+    if (!report.reuseNotice.empty()) printMessage("worldy: {}\n", reuseText(report));
 }
 
 void printField(const planet::TerrainField& field, const planet::TerrainSettings& defaults) {
@@ -146,6 +156,12 @@ planet::Result<void> runBake(const BakeOptions& options) {
     if (options.listPresets) {
         printPresets();
         return {};
+    }
+    const std::filesystem::path& reuse = options.settings.reuse;
+    std::error_code unknown;
+    if (!reuse.empty() && !std::filesystem::exists(reuse, unknown)) {
+        return planet::ioError(
+            fmt::format("{}: no such file; expected an earlier bake to copy from", reuse.string()));
     }
     const planet::Result<NamedSource> named = sourceFrom(options);
     if (!named) return tl::unexpected(named.error());

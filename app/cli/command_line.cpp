@@ -110,6 +110,8 @@ void addBake(CLI::App& command, BakeOptions& options) {
                                 planet::minCompressionLevel, planet::maxCompressionLevel,
                                 planet::defaultCompressionLevel))
         ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
+    command.add_option("--reuse", settings.reuse,
+                       "Earlier bake, perhaps the output itself, to copy unchanged chunks from");
     command.add_option("--debug-levels", settings.debugLevelsFolder,
                        "Also write each level of each face as PNG to this folder");
     command.add_option("--colour", options.colour,

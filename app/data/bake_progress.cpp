@@ -56,6 +56,18 @@ void TerminalProgress::show(const planet::BakeProgress& progress) {
     tenthsShown_ = tenths;
 }
 
+std::string copiedText(const planet::BakeReport& report) {
+    std::string text = fmt::format("{} of {} chunks", report.copiedChunks, report.chunks);
+    if (report.copiedColourTiles > 0)
+        text += fmt::format(" and {} of {} colour tiles", report.copiedColourTiles, report.colourTiles);
+    return text + " copied";
+}
+
+std::string reuseText(const planet::BakeReport& report) {
+    if (!report.reuseIsDamaged) return report.reuseNotice;
+    return report.reuseNotice + "; what it holds there was baked instead of copied";
+}
+
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,
                                                   const planet::BakeSettings& settings,
                                                   const std::filesystem::path& output,

@@ -1,6 +1,8 @@
 // Shows the progress of a bake on the terminal.
 #pragma once
 
+#include <string>
+
 #include "app/data/bake_job.h"
 #include "planet/bake/bake.h"
 
@@ -21,6 +23,11 @@ private:
     bool lineOpen_ = false;
     int tenthsShown_ = 0;
 };
+
+// Returns "12 of 30 chunks copied", and the colour tiles if they were copied.
+std::string copiedText(const planet::BakeReport& report);
+// Returns BakeReport::reuseNotice with what was done about it.
+std::string reuseText(const planet::BakeReport& report);
 
 // Bakes with progress on the terminal, until the bake ends or is interrupted.
 planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& source,

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/base/places.h"
@@ -127,6 +129,31 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
         identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
     identity += identityOf(colour, settings.colour);
     return cacheFolder() / fmt::format("{}-{:016x}.chk", shortened(sourceFiles.stem), hashOf(identity));
+}
+
+fs::path earlierBakeOf(const fs::path& source, const planet::BakeSettings& settings) {
+    constexpr std::size_t mostOpened = 32;
+    const std::string stem = shortened(planet::heightSourceFiles(source).stem) + "-";
+    constexpr std::size_t rest = 16 + std::string_view(".chk").size();  // after the stem
+    std::vector<std::pair<fs::file_time_type, fs::path>> found;
+    std::error_code status;
+    for (fs::directory_iterator entry(cacheFolder(), status), end; !status && entry != end;
+         entry.increment(status)) {
+        const std::string name = entry->path().filename().string();
+        std::error_code unknown;
+        if (name.size() == stem.size() + rest && name.starts_with(stem) && name.ends_with(".chk"))
+            found.emplace_back(entry->last_write_time(unknown), entry->path());
+    }
+    std::ranges::sort(found, std::greater());
+    if (found.size() > mostOpened) found.resize(mostOpened);
+    const auto fits = [&](const auto& each) {
+        const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(each.second);
+        return file && file->info().hasSourceRecord &&
+               planet::chunkSize(file->info().shape) == settings.chunkSize &&
+               file->info().shape.radiusM == settings.radiusM;
+    };
+    const auto newest = std::ranges::find_if(found, fits);
+    return newest == found.end() ? fs::path() : newest->second;
 }
 
 planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings,

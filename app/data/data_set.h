@@ -46,4 +46,9 @@ std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const pl
                                    const planet::HeightSourceSettings& sourceSettings = {},
                                    const std::filesystem::path& colour = {});
 
+// Returns the newest bake in the cache of a source of this name with the same chunk size and radius that says what it was
+// baked from, so that a bake of the changed source can copy from it; empty if there is none.
+std::filesystem::path earlierBakeOf(const std::filesystem::path& source,
+                                    const planet::BakeSettings& settings);
+
 }  // namespace worldy

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/base/text.h"
+#include "app/data/bake_progress.h"
 #include "planet/source/terrain.h"
 
 namespace worldy {
@@ -115,15 +116,25 @@ void beginBake(Session& session, SessionBake&& bake, const Log& log) {
     session.bake.emplace(std::move(bake));
 }
 
+// Returns the bake to copy unchanged chunks from: that of the same source which is open, or else one in the cache.
+fs::path earlierBakeFor(const Session& session, const SessionBake& bake) {
+    const bool isOpen = session.open && session.open->baked.source == bake.data.source &&
+                        session.open->baked.settings.chunkSize == bake.request.settings.chunkSize;
+    if (isOpen) return session.open->data.chunkFile;
+    return earlierBakeOf(bake.data.source, bake.request.settings);
+}
+
 // Starts the bake once cancelled bakes have ended, because two bakes must not write the same file.
 void launchWaitingBake(Session& session) {
     std::erase_if(session.ending, [](const auto& job) { return job->takeResult().has_value(); });
     if (!session.bake || session.bake->job || !session.ending.empty()) return;
-    const SessionBake& bake = *session.bake;
+    SessionBake& bake = *session.bake;
+    planet::BakeSettings settings = bake.request.settings;
+    settings.reuse = earlierBakeFor(session, bake);
     std::error_code status;
     fs::create_directories(bake.data.chunkFile.parent_path(), status);
     session.bake->job =
-        std::make_unique<BakeJob>(bake.data.source, bake.request.sourceSettings, bake.request.settings,
+        std::make_unique<BakeJob>(bake.data.source, bake.request.sourceSettings, settings,
                                   bake.data.chunkFile, JobColour{bake.data.bakedColour, bake.colourMayFail});
 }
 
@@ -145,6 +156,9 @@ void finishBake(Session& session, const ViewSettings& settings, const Log& log) 
     const planet::BakeReport& report = **result;
     log->info("Baked: {} samples in {}, {}", countText(static_cast<double>(report.samples)),
               durationText(report.seconds), bytesText(static_cast<double>(report.fileBytes)));
+    if (report.copiedChunks > 0) log->info("{} from an earlier bake", copiedText(report));
+    if (!report.reuseNotice.empty())
+        log->log(report.reuseIsDamaged ? spdlog::level::warn : spdlog::level::debug, "{}", reuseText(report));
     session.bakeReport = report;
     const std::string colourProblem = bake.job->colourProblem();
     if (!colourProblem.empty()) log->warn("{}; baked without colours", colourProblem);

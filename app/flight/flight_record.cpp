@@ -497,8 +497,16 @@ Result<std::vector<std::byte>> contentBytes(std::span<const std::byte> all, cons
 }  // namespace
 
 FlightData flightDataOf(const planet::ChunkFile& file) {
-    const auto header = planet::headerBytes(file.info(), file.sizeBytes());
-    return {file.name(), file.info().shape, file.sizeBytes(), hashOf(header)};
+    // The record of the source, which nothing shows, does not count.
+    planet::ChunkFileInfo info = file.info();
+    std::uint64_t bytes = file.sizeBytes();
+    const auto record = file.readSourceRecord();
+    if (record && *record) {
+        info.hasSourceRecord = false;
+        bytes -= planet::sourceRecordBytes(**record).size();
+    }
+    const auto header = planet::headerBytes(info, bytes);
+    return {file.name(), file.info().shape, bytes, hashOf(header)};
 }
 
 Result<void> checkSameData(const fs::path& flight, const FlightData& recorded, const FlightData& present) {

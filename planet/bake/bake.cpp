@@ -1,5 +1,6 @@
 #include "planet/bake/bake.h"
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -11,8 +12,10 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
+#include "planet/bake/bake_reuse.h"
 #include "planet/bake/bake_tile.h"
 #include "planet/bake/bake_tree.h"
 #include "planet/bake/colour_bake.h"
@@ -30,7 +33,9 @@ namespace {
 
 // Takes baked units in quadtree order, appends their blocks to the file, and merges four siblings as soon as
 // they are complete, so it keeps at most three chunks per level. It holds back the chunks whose tight metric
-// is not known yet, because a unit under them is narrower than their cells, and the siblings of such chunks.
+// is not known yet, because a unit under them is narrower than their cells, and the siblings of such chunks. It
+// holds back the same chunks if it knows their tight metric from an earlier bake, so that the order of the blocks
+// does not depend on what is copied.
 class Assembler {
 public:
     Assembler(const BakeContext& bake, AtomicFile& file)
@@ -40,17 +45,21 @@ public:
           above_(groups_.size()),
           held_(groups_.size()) {}
 
+    // Says what the tight metric of a chunk is, before the first unit under it is added.
+    void know(const UnchangedChunk& chunk) { above_[chunk.id.level].deltaTightM = chunk.deltaTightM; }
+
     Result<void> add(BakedTile&& tile) {
         const std::uint64_t shift = file_.size() - provisionalOrigin;
         if (tile.root.entry.children.exists()) tile.root.entry.children.offset += shift;
         TRY(file_.append(tile.blocks));
-        const auto coarsest = static_cast<std::size_t>(coarsestLevelOfTiles(tile.root.id.level, bake_.shape));
+        const auto coarsest =
+            static_cast<std::size_t>(coarsestLevelOfTiles(tile.deepestUnitLevel, bake_.shape));
         for (std::size_t level = 0; level < coarsest; ++level) above_[level].isUnknown = true;
         for (std::size_t i = 0; i < tile.offAboveM.size(); ++i) {
             double& offM = above_[coarsest + i].offM;
             offM = std::max(offM, tile.offAboveM[i]);
         }
-        return addChunk({std::move(tile.root), false});
+        return addChunk({std::move(tile.root), false, {}});
     }
 
     // Bakes the chunks that were held back, after all units are added. Calls goOn before each block is read,
@@ -65,7 +74,10 @@ public:
             if (level == 0) break;
             for (std::size_t i = 0; i < chunks.size(); i += quadrantCount) {
                 TRY_ASSIGN(auto parent, merge(std::span(chunks).subspan(i).first<quadrantCount>(), 0));
-                held_[level - 1].push_back({std::move(parent), true});
+                const auto known = knownLater_.find(parent.id);
+                const bool isKnown = known != knownLater_.end();
+                held_[level - 1].push_back(
+                    {std::move(parent), true, isKnown ? std::optional(known->second) : std::nullopt});
             }
             chunks = {};
         }
@@ -77,7 +89,8 @@ public:
 private:
     struct Chunk {
         BakedChunk baked;
-        bool isUnknown = false;  // its tight metric has to be searched for
+        bool isUnknown = false;              // its tight metric has to be searched for
+        std::optional<float> deltaTightM{};  // unless it is known from an earlier bake
     };
     // The siblings that have come so far.
     struct Group {
@@ -89,6 +102,7 @@ private:
     struct Above {
         double offM = 0;  // from the finest samples of its units
         bool isUnknown = false;
+        std::optional<float> deltaTightM{};  // from an earlier bake
     };
 
     Result<void> addChunk(Chunk&& chunk) {
@@ -118,8 +132,10 @@ private:
         if (!whole.isHeld) {
             TRY_ASSIGN(auto parent, merge(std::span(whole.chunks).first<quadrantCount>(),
                                           above.isUnknown ? 0 : above.offM));
-            return addChunk({std::move(parent), above.isUnknown});
+            if (above.deltaTightM) parent.entry.deltaTightM = *above.deltaTightM;
+            return addChunk({std::move(parent), above.isUnknown, above.deltaTightM});
         }
+        if (above.deltaTightM) knownLater_.emplace(parentOf(id), *above.deltaTightM);
         std::move(whole.chunks.begin(), whole.chunks.end(), std::back_inserter(held_[id.level]));
         return addLater(parentOf(id));
     }
@@ -139,7 +155,10 @@ private:
     Result<void> search(std::vector<Chunk>& chunks, int threads, const std::function<bool()>& goOn) {
         std::vector<BakedChunk*> unknown;
         for (Chunk& chunk : chunks) {
-            if (chunk.isUnknown) unknown.push_back(&chunk.baked);
+            if (chunk.deltaTightM)
+                chunk.baked.entry.deltaTightM = *chunk.deltaTightM;
+            else if (chunk.isUnknown)
+                unknown.push_back(&chunk.baked);
         }
         if (unknown.empty()) return {};
         TRY_ASSIGN(const auto written, writtenSoFar(unknown[0]->entry.minStep));
@@ -183,9 +202,10 @@ private:
 
     const BakeContext& bake_;
     AtomicFile& file_;
-    std::vector<Group> groups_;             // by level
-    std::vector<Above> above_;              // by level
-    std::vector<std::vector<Chunk>> held_;  // by level; the roots are at level 0
+    std::vector<Group> groups_;                      // by level
+    std::vector<Above> above_;                       // by level
+    std::vector<std::vector<Chunk>> held_;           // by level; the roots are at level 0
+    std::unordered_map<ChunkId, float> knownLater_;  // the tight metrics of chunks that finish() makes
     BakeScratch scratch_;
 };
 
@@ -215,13 +235,21 @@ private:
     Stopwatch sinceReport_;
 };
 
-Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, Assembler& assembler,
-                       ProgressMeter& meter) {
-    TreeWalk walk(bake.source, bake.shape, tileLevels);
-    // The units in progress, in a ring buffer: they end in the order in which they began.
+// Notes the first damage of the earlier bake.
+void noteDamage(BakeReport& report, const std::string& problem) {
+    if (problem.empty() || report.reuseIsDamaged) return;
+    report.reuseNotice = problem;
+    report.reuseIsDamaged = true;
+}
+
+// Bakes or copies all units. Fills in what the report says of copies.
+Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, const EarlierBake* earlier,
+                       Assembler& assembler, ProgressMeter& meter, BakeReport& report) {
+    BakeWalk walk(bake.source, bake.shape, tileLevels, earlier);
+    // The steps in progress, in a ring buffer: they end in the order in which they began.
     struct Work {
-        TreeUnit unit;
-        Result<BakedTile> tile;
+        BakeStep step;
+        Result<StepResult> made;
     };
     std::vector<Work> underWay(static_cast<std::size_t>(threads) * 3);
     tbb::enumerable_thread_specific<BakeScratch> scratches;
@@ -230,28 +258,30 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, Ass
     std::size_t begun = 0;
     // Input and output run in order, one at a time; only the output uses outcome.
     const auto begin = [&](tbb::flow_control& control) -> std::size_t {
-        const std::optional<TreeUnit> unit = stop ? std::nullopt : walk.next();
-        if (!unit) {
+        std::optional<BakeStep> step = stop ? std::nullopt : walk.next();
+        if (!step) {
             control.stop();
             return 0;
         }
         const std::size_t place = begun++ % underWay.size();
-        underWay[place].unit = *unit;
+        underWay[place].step = *std::move(step);
         return place;
     };
     const auto bakeOne = [&](std::size_t place) {
-        underWay[place].tile = bakeTile(bake, underWay[place].unit, scratches.local());
+        underWay[place].made = runStep(bake, earlier, underWay[place].step, scratches.local());
         return place;
     };
+    const auto add = [&](Work&& work) -> Result<void> {
+        TRY_ASSIGN(auto made, std::move(work.made));
+        for (const UnchangedChunk& chunk : work.step.unchanged) assembler.know(chunk);
+        for (BakedTile& tile : made.tiles) TRY(assembler.add(std::move(tile)));
+        report.sampledCells += made.sampledCells;
+        report.copiedChunks += made.copiedChunks;
+        noteDamage(report, made.problem);
+        return meter.add(made.cells) ? Result<void>() : cancelled();
+    };
     const auto write = [&](Work&& work) {
-        const auto cells = static_cast<std::uint64_t>(cellsAlong(work.unit, bake.shape));
-        if (!work.tile) {
-            outcome = tl::unexpected(work.tile.error());
-        } else if (auto added = assembler.add(*std::move(work.tile)); !added) {
-            outcome = added;
-        } else if (!meter.add(cells * cells)) {
-            outcome = cancelled();
-        }
+        outcome = add(std::move(work));
         if (!outcome) stop = true;
     };
     const auto writeOne = [&](std::size_t place) {
@@ -268,6 +298,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, Ass
                 tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, Stage(handover, writeOne)));
     });
     handover.take();
+    noteDamage(report, walk.problem());
     return outcome;
 }
 
@@ -297,11 +328,45 @@ Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, Ato
 }
 
 Result<void> writeColours(const ColourSource& source, const ColourTree& tree, const BakeSettings& settings,
-                          AtomicFile& file, ProgressMeter& meter, ChunkFileInfo& info) {
+                          const EarlierBake* earlier, AtomicFile& file, ProgressMeter& meter,
+                          ChunkFileInfo& info, BakeReport& report) {
     const auto progress = [&](std::uint64_t tiles) { return meter.add(tiles * samplesPerColourTile); };
+    if (earlier && earlier->hasSameColours()) {
+        std::string problem;
+        TRY_ASSIGN(info.colour, copyColours(earlier->file(), file, progress, problem));
+        if (info.colour) {
+            // The name of the image is no part of what the colours depend on.
+            info.colour->source = source.description;
+            report.copiedColourTiles = tree.tileCount();
+            return {};
+        }
+        noteDamage(report, problem);
+    }
     TRY_ASSIGN(info.colour,
                bakeColour(source, tree, settings.colour.format, bakeThreads(settings), file, progress));
     return {};
+}
+
+// Opens the earlier bake of the settings; nothing, and the reason in notice, if it cannot be used.
+std::optional<EarlierBake> earlierBake(const HeightSource& source, const BakeSettings& settings,
+                                       const PlanetShape& shape, const std::optional<SourceRecord>& record,
+                                       std::string& notice) {
+    if (settings.reuse.empty()) return std::nullopt;
+    Result<ChunkFile> file = ChunkFile::open(settings.reuse);
+    if (!file) {
+        notice = file.error().message;
+        return std::nullopt;
+    }
+    if (record) {
+        auto earlier = EarlierBake::make(*std::move(file), source, shape, *record, notice);
+        if (earlier && !earlier->difference().empty())
+            notice = fmt::format("{}: no chunk was copied from it, because {}", settings.reuse.string(),
+                                 earlier->difference());
+        return earlier;
+    }
+    notice = fmt::format("{}: nothing was copied from it, because the source cannot say what it depends on",
+                         settings.reuse.string());
+    return std::nullopt;
 }
 
 }  // namespace
@@ -321,12 +386,17 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     }
     const std::uint64_t colourTiles = colourTree.tileCount();
 
+    BakeReport report;
+    const std::optional<SourceRecord> record = recordOf(source, settings, shape, colour);
+    const std::optional<EarlierBake> earlier =
+        earlierBake(source, settings, shape, record, report.reuseNotice);
+    const bool mayCopy = earlier && earlier->difference().empty();
     TRY_ASSIGN(auto file, AtomicFile::create(output, settings.fileCalls));
     TRY(file.append(std::vector<std::byte>(chunkFileHeaderBytes)));
     Assembler assembler(context, file);
     ProgressMeter meter(progress, tree.leafCells + colourTiles * samplesPerColourTile);
     const int threads = bakeThreads(settings);
-    TRY(bakeTiles(context, tileLevels, threads, assembler, meter));
+    TRY(bakeTiles(context, tileLevels, threads, mayCopy ? &*earlier : nullptr, assembler, meter, report));
     TRY(assembler.finish(threads, [&] { return meter.add(0); }));
     ChunkFileInfo info;
     info.chunks = tree.chunks;
@@ -334,7 +404,13 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     TRY(writeRoots(context, assembler, file, info));
     const std::uint64_t bytesWithoutColours = file.size();
     if (colour) {
-        TRY(writeColours(*colour, colourTree, settings, file, meter, info));
+        TRY(writeColours(*colour, colourTree, settings, earlier ? &*earlier : nullptr, file, meter, info,
+                         report));
+    }
+    const std::uint64_t colourBytes = file.size() - bytesWithoutColours;
+    if (record) {
+        TRY(file.append(sourceRecordBytes(*record)));
+        info.hasSourceRecord = true;
     }
     const std::uint64_t fileBytes = file.size();
     TRY(file.overwrite(0, headerBytes(info, fileBytes)));
@@ -343,7 +419,6 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     if (!settings.debugLevelsFolder.empty()) {
         TRY(writeLevelImages(output, settings.debugLevelsFolder));
     }
-    BakeReport report;
     report.shape = shape;
     report.samples = sampleCountOf(info);
     report.chunks = info.chunks;
@@ -351,7 +426,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     report.fileBytes = fileBytes;
     report.missingSamples = source.missingCount;
     report.colourTiles = colourTiles;
-    report.colourBytes = fileBytes - bytesWithoutColours;
+    report.colourBytes = colourBytes;
     if (colour) report.colourNotice = colour->notice;
     for (const Face face : allFaces) {
         const BakedChunk& root = assembler.root(face);

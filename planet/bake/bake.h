@@ -53,6 +53,12 @@ struct BakeReport {
     std::uint64_t colourTiles = 0;
     std::uint64_t colourBytes = 0;  // in the file
     std::string colourNotice;       // ColourSource::notice
+    // Of a bake with BakeSettings::reuse.
+    std::uint64_t copiedChunks = 0;       // chunks whose blocks were copied
+    std::uint64_t copiedColourTiles = 0;  // all or none
+    std::uint64_t sampledCells = 0;       // cells of leaves that were sampled; without reuse, of all leaves
+    std::string reuseNotice;      // why nothing was copied, or what was damaged; empty: nothing to say
+    bool reuseIsDamaged = false;  // where the earlier bake is damaged, chunks were baked
     double seconds = 0;
 };
 

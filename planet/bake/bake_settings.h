@@ -35,6 +35,9 @@ struct BakeSettings {
     // cells, at least one. Then neighbouring squares sample little twice, and a square fits a core's cache.
     // The chunks do not depend on it; the order of their blocks may.
     std::optional<int> tileLevels{};
+    // An earlier bake, from which what the source has left unchanged is copied (bake_reuse.h); it may be the
+    // output itself. Empty, without a record of its source or baked with other settings: all is baked.
+    std::filesystem::path reuse{};
     ColourBakeSettings colour{};              // used with a colour source
     FileCalls fileCalls = systemFileCalls();  // for writing the output
 };

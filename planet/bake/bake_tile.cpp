@@ -123,15 +123,22 @@ Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeSc
     scratch.steps.resize(samplesIn(tile));
     TRY(bake.source.sample(tile, scratch.sampledM));
     TRY(quantise(bake.shape, bake.source, scratch.sampledM, scratch.steps));
-    measureTile(shapeOfLevel(bake.shape, unit.leafLevel), unit.root, scratch.steps, scratch.geometry,
-                scratch.distances);
     BakedTile result;
-    for (int level = scratch.distances.coarsestLevel;
-         level <= std::min(unit.root.level - 1, unit.leafLevel - 2); ++level) {
-        result.offAboveM.push_back(scratch.distances.above(level));
-    }
+    result.deepestUnitLevel = unit.root.level;
+    result.offAboveM = measureUnit(bake.shape, unit, scratch);
     result.root = bakeSubtree(bake, unit.root, unit.leafLevel, tile, scratch, result.blocks);
     return result;
+}
+
+std::vector<double> measureUnit(const PlanetShape& shape, const TreeUnit& unit, BakeScratch& scratch) {
+    measureTile(shapeOfLevel(shape, unit.leafLevel), unit.root, scratch.steps, scratch.geometry,
+                scratch.distances);
+    std::vector<double> offAboveM;
+    for (int level = scratch.distances.coarsestLevel;
+         level <= std::min(unit.root.level - 1, unit.leafLevel - 2); ++level) {
+        offAboveM.push_back(scratch.distances.above(level));
+    }
+    return offAboveM;
 }
 
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,

@@ -36,6 +36,7 @@ struct BakedTile {
     // The largest distances of the unit's finest samples from the chunks above it, metres: by level from
     // coarsestLevelOfTiles of its root to the one above the root, but at most to two above its leaves.
     std::vector<double> offAboveM;
+    int deepestUnitLevel = 0;  // of the roots of all units in it; the root's own level in a unit
 };
 
 // Memory reused between calls.
@@ -65,6 +66,10 @@ int bakeThreads(const BakeSettings& settings);
 // Samples the square of a unit on the grid of its leaves, and bakes it bottom-up. The Error names the
 // source's file, or a height that does not fit into 16 bits.
 Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeScratch& scratch);
+
+// Measures the largest distances of a unit's finest samples from the chunks above it, as BakedTile::offAboveM has them,
+// and those within it, in scratch.distances. scratch.steps: the samples of its square on the grid of its leaves.
+std::vector<double> measureUnit(const PlanetShape& shape, const TreeUnit& unit, BakeScratch& scratch);
 
 // Appends the block of four children and returns their parent, made of every other row and column. Locations
 // in the file count from origin, the location of the first block. finestDistanceM: the parent's distance from

@@ -85,6 +85,12 @@ bool isRefined(const HeightSource& source, const PlanetShape& shape, const Chunk
     return source.finestCells(id) > (chunkCells(shape) << id.level);
 }
 
+std::optional<TreeUnit> unitAt(const HeightSource& source, const PlanetShape& shape, const ChunkId& id,
+                               int levels) {
+    const std::optional<int> level = evenLeafLevel(source, shape, id, levels);
+    return level ? std::optional(TreeUnit{id, *level}) : std::nullopt;
+}
+
 TreeWalk::TreeWalk(const HeightSource& source, const PlanetShape& shape, int levels)
     : source_(source), shape_(shape), levels_(levels) {
     for (auto face = allFaces.rbegin(); face != allFaces.rend(); ++face) open_.push_back({*face, 0, 0, 0});
@@ -94,8 +100,7 @@ std::optional<TreeUnit> TreeWalk::next() {
     while (!open_.empty()) {
         const ChunkId id = open_.back();
         open_.pop_back();
-        if (const std::optional<int> level = evenLeafLevel(source_, shape_, id, levels_))
-            return TreeUnit{id, *level};
+        if (const std::optional<TreeUnit> unit = unitAt(source_, shape_, id, levels_)) return unit;
         for (int q = quadrantCount - 1; q >= 0; --q) open_.push_back(childOf(id, q));
     }
     return std::nullopt;

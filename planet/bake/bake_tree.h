@@ -44,6 +44,10 @@ constexpr PlanetShape shapeOfLevel(const PlanetShape& shape, int level) {
     return coarser;
 }
 
+// Returns the unit that a chunk is the root of: all leaves under it have one level, at most `levels` below it.
+std::optional<TreeUnit> unitAt(const HeightSource& source, const PlanetShape& shape, const ChunkId& id,
+                               int levels);
+
 // Divides the tree into the largest units of at most `levels` levels of children, in quadtree order. Visits
 // only refined chunks and their children, so places without fine data cost nothing.
 class TreeWalk {

@@ -126,14 +126,19 @@ Result<std::vector<std::byte>> ChunkFile::readBlock(const BlockId& id, BlockLoca
 Result<std::vector<std::byte>> ChunkFile::readContent(const BlockId& id, bool isRoot, BlockLocation location,
                                                       const BlockBytes& bytes) const {
     TRY_ASSIGN(auto block, readBlock(id, location, bytes));
-    const std::size_t size = block.size() - checksumBytes;
-    const auto stored = readLittleEndian<std::uint64_t>(block.data() + size);
-    block.resize(size);
-    if (stored != checksumOf(block, id, isRoot)) {
-        return badInput(fmt::format(
-            "{}: the block of {} is damaged: its checksum does not match; bake it again", name_, nameOf(id)));
-    }
+    TRY_ASSIGN(const auto content, checkedContent(id, isRoot, block));
+    block.resize(content.size());
     return block;
+}
+
+Result<std::span<const std::byte>> ChunkFile::checkedContent(const BlockId& id, bool isRoot,
+                                                             std::span<const std::byte> block) const {
+    const std::size_t size = block.size() - checksumBytes;
+    const auto content = block.first(size);
+    if (readLittleEndian<std::uint64_t>(block.data() + size) == checksumOf(content, id, isRoot))
+        return content;
+    return badInput(fmt::format("{}: the block of {} is damaged: its checksum does not match; bake it again",
+                                name_, nameOf(id)));
 }
 
 tl::unexpected<Error> ChunkFile::invalid(const BlockId& id, std::string_view what) const {
@@ -195,6 +200,12 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
     const auto size =
         static_cast<std::uint32_t>(std::min<std::size_t>(largestIndexBytes, location.size - checksumBytes));
     TRY_ASSIGN(const auto bytes, readBlock(parent, {location.offset, size}, {1, largestIndexBytes}));
+    return entriesFrom(parent, location, bytes);
+}
+
+Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::entriesFrom(const ChunkId& parent,
+                                                                     BlockLocation location,
+                                                                     std::span<const std::byte> bytes) const {
     const bool aboveDeepest = parent.level + 1 < leafLevel(info_.shape);
     const auto index = indexFrom(bytes, quadrantCount, aboveDeepest, location.offset);
     if (!index) return invalid(parent, index.error().message);
@@ -204,6 +215,58 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
             return invalid(childOf(parent, static_cast<int>(q)), "its index entry is out of range");
     }
     return index->entries;
+}
+
+Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::checkedEntries(
+    const ChunkId& parent, BlockLocation location, std::span<const std::byte> block) const {
+    assert(parent.level < leafLevel(info_.shape));
+    if (block.size() < 1 + checksumBytes) return invalid(parent, "it is too small for its index");
+    TRY_ASSIGN(const auto content, checkedContent(parent, false, block));
+    return entriesFrom(parent, location, content);
+}
+
+Result<std::vector<ColourEntry>> ChunkFile::checkedColourEntries(const ChunkId& firstTile,
+                                                                 BlockLocation location,
+                                                                 std::span<const std::byte> block) const {
+    assert(info_.colour);
+    const bool isRoot = firstTile.level == 0;
+    const BlockId id(isRoot ? firstTile : parentOf(firstTile), BlockKind::Colours);
+    const std::size_t tiles = isRoot ? 1 : quadrantCount;
+    if (block.size() < tiles * colourEntryBytes + checksumBytes)
+        return invalid(id, "it is too small for its index");
+    TRY_ASSIGN(const auto content, checkedContent(id, isRoot, block));
+    std::vector<ColourEntry> entries;
+    for (std::size_t i = 0; i < tiles; ++i) {
+        entries.push_back(colourEntryFrom(content.subspan(i * colourEntryBytes).first<colourEntryBytes>(),
+                                          location.offset));
+        if (entries.back().children.exists() && firstTile.level >= info_.colour->leafLevel)
+            return invalid(id, "its index entry is out of range");
+    }
+    return entries;
+}
+
+Result<void> ChunkFile::readBytes(std::uint64_t offset, std::span<std::byte> out) const {
+    if (offset <= sizeBytes_ && out.size() <= sizeBytes_ - offset) return readAt_(offset, out);
+    return badInput(fmt::format("{}: {} bytes at {} are recorded, but the file has {}; bake it again", name_,
+                                out.size(), offset, sizeBytes_));
+}
+
+Result<std::optional<SourceRecord>> ChunkFile::readSourceRecord() const {
+    if (!info_.hasSourceRecord) return std::nullopt;
+    const auto named = [&](const Error& error) {
+        return badInput(fmt::format("{}: {}; bake it again", name_, error.message));
+    };
+    std::array<std::byte, sourceRecordTailBytes> tail{};
+    TRY(readAt_(sizeBytes_ - tail.size(), tail));  // the header alone is larger
+    const auto length = sourceRecordLength(tail);
+    if (!length) return named(length.error());
+    if (*length + tail.size() > sizeBytes_ - chunkFileHeaderBytes)
+        return named(Error{ErrorKind::BadInput, "its record of its source is larger than the file"});
+    std::vector<std::byte> bytes(*length + tail.size());
+    TRY(readAt_(sizeBytes_ - bytes.size(), bytes));
+    auto record = sourceRecordFrom(bytes);
+    if (!record) return named(record.error());
+    return *std::move(record);
 }
 
 Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, BlockLocation location,

@@ -3,6 +3,7 @@
 //   header     512 bytes: magic, version, shape, locations of the six root blocks, checksum
 //   blocks     blocks of children before those of their parents, root blocks last
 //   colours    if any: the blocks of the colour quadtree (colour_tile.h), the finest level first
+//   record     if any: what the file was baked from (source_record.h)
 //
 // A sibling block holds the four children of a chunk as a refinement of its grid (height_codec.h); a root
 // block holds a face's complete root chunk. Each block also says which of its chunks have children, and
@@ -21,6 +22,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +31,7 @@
 #include "planet/base/file_calls.h"
 #include "planet/base/result.h"
 #include "planet/format/chunk_file_types.h"
+#include "planet/format/source_record.h"
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/planet_shape.h"
@@ -67,6 +70,23 @@ public:
     Result<TileData> readColourRoot(Face face) const;
     Result<std::array<TileData, quadrantCount>> readColourChildren(const ChunkId& parent,
                                                                    BlockLocation location) const;
+    // Reads what the file was baked from; nothing if the file does not say. The Error says that the record is
+    // damaged, and names the file.
+    Result<std::optional<SourceRecord>> readSourceRecord() const;
+
+    // Checks the block of a chunk's four children that lies in memory, without decoding its heights: its
+    // checksum and its index. block: its bytes, which lie at location.offset in the file. Returns the entries, as
+    // readEntries does.
+    Result<std::array<ChunkEntry, quadrantCount>> checkedEntries(const ChunkId& parent,
+                                                                 BlockLocation location,
+                                                                 std::span<const std::byte> block) const;
+    // Does the same for a block of colours; a block of a root tile has one entry. firstTile: the first of its
+    // tiles.
+    Result<std::vector<ColourEntry>> checkedColourEntries(const ChunkId& firstTile, BlockLocation location,
+                                                          std::span<const std::byte> block) const;
+    // Reads bytes as they are stored.
+    Result<void> readBytes(std::uint64_t offset, std::span<std::byte> out) const;
+
     // Reads only the entries of a tile's four children, without the checksum. The children must lie above the
     // finest level.
     Result<std::array<ColourEntry, quadrantCount>> readColourEntries(const ChunkId& parent,
@@ -84,6 +104,12 @@ private:
     // Returns the content of a block after verifying its checksum. isRoot: the id is a root's own.
     Result<std::vector<std::byte>> readContent(const BlockId& id, bool isRoot, BlockLocation location,
                                                const BlockBytes& bytes) const;
+    // Returns the same of a block in memory, at least checksumBytes long.
+    Result<std::span<const std::byte>> checkedContent(const BlockId& id, bool isRoot,
+                                                      std::span<const std::byte> block) const;
+    // Decodes the index at the beginning of a block, and checks its entries.
+    Result<std::array<ChunkEntry, quadrantCount>> entriesFrom(const ChunkId& parent, BlockLocation location,
+                                                              std::span<const std::byte> bytes) const;
     Result<std::vector<TileData>> readColourBlock(const ChunkId& block, BlockLocation location,
                                                   std::span<const ChunkId> tiles) const;
     tl::unexpected<Error> invalid(const BlockId& id, std::string_view what) const;

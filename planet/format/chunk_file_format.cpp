@@ -22,7 +22,8 @@ constexpr std::uint64_t rootSeed = std::uint64_t{1} << 63;
 // No key has these bits: y is below 2^maxLevel.
 constexpr std::uint64_t colourSeed = std::uint64_t{1} << 55;
 constexpr std::uint64_t colourRootSeed = std::uint64_t{3} << 54;
-static_assert(maxLevel <= 26);
+constexpr std::uint64_t recordSeed = std::uint64_t{7} << 53;
+static_assert(maxLevel <= 25);
 
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
@@ -236,6 +237,10 @@ std::uint64_t headerChecksum(std::span<const std::byte> bytes) {
     return checksum(bytes, 0);
 }
 
+std::uint64_t sourceRecordChecksum(std::span<const std::byte> bytes) {
+    return checksum(bytes, recordSeed);
+}
+
 std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& info, std::uint64_t fileBytes) {
     std::vector<std::byte> bytes;
     ByteWriter out(bytes);
@@ -251,7 +256,7 @@ std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& inf
     out.put(info.minStep);
     out.put(info.maxStep);
     out.put(static_cast<std::uint8_t>(info.coarsestLeafLevel));
-    out.put(std::uint8_t{0});
+    out.put(static_cast<std::uint8_t>(info.hasSourceRecord));
     out.put(info.missingSamples);
     out.put(info.chunks);
     for (const BlockLocation& root : info.roots) {
@@ -314,7 +319,7 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     info.minStep = in.get<std::int16_t>();
     info.maxStep = in.get<std::int16_t>();
     info.coarsestLeafLevel = in.get<std::uint8_t>();
-    in.take(1);
+    info.hasSourceRecord = in.get<std::uint8_t>() == 1;
     info.missingSamples = in.get<std::uint64_t>();
     info.chunks = in.get<std::uint64_t>();
     if (const std::string problem = treeProblem(info); !problem.empty())

@@ -45,6 +45,8 @@ std::uint64_t rootChecksum(std::span<const std::byte> bytes, Face face);
 std::uint64_t siblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
 std::uint64_t colourRootChecksum(std::span<const std::byte> bytes, Face face);
 std::uint64_t colourSiblingChecksum(std::span<const std::byte> bytes, const ChunkId& parent);
+// Returns the checksum of a record of the source (source_record.h). bytes: all before the checksum.
+std::uint64_t sourceRecordChecksum(std::span<const std::byte> bytes);
 
 // Returns the checksum of the header. bytes: the header without its last checksumBytes.
 std::uint64_t headerChecksum(std::span<const std::byte> bytes);

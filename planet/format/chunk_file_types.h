@@ -83,6 +83,7 @@ struct ChunkFileInfo {
     std::array<BlockLocation, faceCount> roots;
     std::string source;  // description of the baked source, for users; at most 200 bytes of UTF-8
     std::optional<ColourPyramid> colour;
+    bool hasSourceRecord = false;  // the file ends with a SourceRecord
 };
 
 // Returns whether every leaf is at the deepest level.

@@ -9,6 +9,7 @@
 #include "planet/base/try.h"
 #include "planet/source/height_source.h"
 #include "planet/source/sample_tiles.h"
+#include "planet/source/source_parts.h"
 #include "planet/source/world_file.h"
 
 namespace planet {
@@ -57,6 +58,12 @@ Result<ColourSource> openColourSource(const std::filesystem::path& path, std::si
     source.naturalFaceSize = channels[0].naturalFaceSize;
     source.notice = std::ranges::max_element(channels, {}, &HeightSource::seamEdges)->notice;
     source.finestCells = channels[0].finestCells;
+    source.signature = [parts = channels[0].parts]() -> Result<std::uint64_t> {
+        TRY_ASSIGN(const auto made, parts());
+        Fingerprint hash;
+        for (const SourcePart& part : made) hash.add(part.signature);
+        return hash.hash();
+    };
     source.sample = [channels = std::move(channels)](const SampleTile& tile, std::span<glm::vec3> out) {
         return sampleInPieces(tile, colourPieceSide, out,
                               [&](const SampleTile& piece, glm::vec3* to, std::size_t stride) {

@@ -29,6 +29,9 @@ struct ColourSource {
     // HeightSource::finestCells does. Null: naturalFaceSize - 1 everywhere.
     std::function<int(const ChunkId& square)> finestCells{};
 
+    // Returns a hash of what the colours depend on. Reads the files. Null: unknown.
+    std::function<Result<std::uint64_t>()> signature{};
+
     // Fills out, row-major, with columns x rows colours in linear light, [0, 1]. Like HeightSource::sample,
     // it filters to the grid's spacing and returns the same bits on an edge of the cube from either face.
     std::function<Result<void>(const SampleTile& tile, std::span<glm::vec3> out)> sample;

@@ -4,13 +4,16 @@
 
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "planet/base/try.h"
 #include "planet/raster/gdal_formats.h"
 #include "planet/raster/image_placement.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/source_parts.h"
 #include "planet/source/terrain.h"
 
 namespace planet {
@@ -95,9 +98,24 @@ bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourCh
     return placementOf(path.string(), layout.width, layout.height, layout.geoTags).has_value();
 }
 
-Result<HeightSource> openHeightSource(const std::filesystem::path& path,
-                                      const HeightSourceSettings& settings) {
-    TRY(checkSettings(settings));
+namespace {
+
+// Returns the one part of an image, cube faces or a terrain text.
+std::function<Result<std::vector<SourcePart>>()> wholeSource(const std::filesystem::path& path,
+                                                             const HeightSourceSettings& settings,
+                                                             const SampleDensities& densities) {
+    return [path, settings = hashOf(settings), densities]() -> Result<std::vector<SourcePart>> {
+        const HeightSourceFiles source = heightSourceFiles(path);
+        Fingerprint fingerprint;
+        // Files count by their content; without any, the path is the text of a terrain.
+        if (source.files.empty()) fingerprint.add(path.string());
+        TRY_ASSIGN(const auto files, hashOfFiles(source.files));
+        fingerprint.add(files).add(settings);
+        return std::vector{wholePlanet(fingerprint.hash(), densities)};
+    };
+}
+
+Result<HeightSource> openAnySource(const std::filesystem::path& path, const HeightSourceSettings& settings) {
     if (isTerrainText(path)) return openTerrain(path, settings);
     if (isWorldFile(path)) {
         if (asRead(settings)) return openWorld(path, settings);
@@ -122,6 +140,17 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
                                    path.string(), path.string()));
     }
     return openImage(path, settings);
+}
+
+}  // namespace
+
+Result<HeightSource> openHeightSource(const std::filesystem::path& path,
+                                      const HeightSourceSettings& settings) {
+    TRY(checkSettings(settings));
+    Result<HeightSource> source = openAnySource(path, settings);
+    // Rasters, worlds and detail have parts of their own; anything else is one.
+    if (source && !source->parts) source->parts = wholeSource(path, settings, source->densities);
+    return source;
 }
 
 }  // namespace planet

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/source/source_parts.h"
 #include "planet/source/terrain_sources.h"
 
 namespace planet {
@@ -203,6 +205,23 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
     result.sampleCount = source.sampleCount;
     result.missingCount = source.missingCount;
     result.reads = source.reads;
+    if (source.parts) {
+        const std::uint64_t hash = Fingerprint()
+                                       .add(terrainText({detail, {}}))
+                                       .add(std::int32_t{shared->cells})
+                                       .add(source.minM)
+                                       .add(source.maxM)
+                                       .hash();
+        // The relief of a place is that of the samples around its cell of the source's own grid.
+        const double reachRad = 8.0 / shared->cells;
+        result.parts = [of = source.parts, hash, reachRad]() -> Result<std::vector<SourcePart>> {
+            TRY_ASSIGN(auto parts, of());
+            for (SourcePart& part : parts)
+                part.radiusRad = std::min(part.radiusRad + reachRad, std::numbers::pi);
+            parts.push_back(wholePlanet(hash, {}));
+            return parts;
+        };
+    }
     if (source.finestCells) {
         // Detail refines the finest parts of a source. Elsewhere its octaves are too small to show.
         result.finestCells = [of = source.finestCells, finest = shared->cells,

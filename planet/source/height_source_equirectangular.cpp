@@ -350,6 +350,8 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     source.naturalFaceSize = powerOfTwoCells(placement.period / std::numbers::pi) + 1;
     source.sampleCount = static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height);
     describeHeights(source, conversion, statistics);
+    source.densities = {rowsToPole(placement, layout.height) / std::numbers::pi,
+                        placement.period / (2 * std::numbers::pi)};
     source.sample = [shared = Equirectangular{image, placement, statistics.minM, statistics.maxM}](
                         const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);

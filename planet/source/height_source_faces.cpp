@@ -12,6 +12,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -432,6 +433,7 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
     source.naturalFaceSize = powerOfTwoCells(format.size - 1) + 1;
     const auto side = static_cast<std::uint64_t>(format.size);
     source.sampleCount = faceCount * side * side;
+    source.densities.alongPerRad = (format.size - 1) / (std::numbers::pi / 2);
     describeHeights(source, conversion, statistics);
     const FaceLines lines{format.size, statistics.missingCount > 0, conversion.fillM};
     if (edges == FaceEdges::MustAgree) {

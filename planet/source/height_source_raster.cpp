@@ -16,8 +16,10 @@
 #include "planet/base/try.h"
 #include "planet/raster/gdal_raster.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/raster_parts.h"
 #include "planet/source/raster_sampling.h"
 #include "planet/source/sample_tiles.h"
+#include "planet/source/source_parts.h"
 
 namespace planet {
 
@@ -204,6 +206,14 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         Rasters{std::move(areas), std::min(statistics.minM, fillM), std::max(statistics.maxM, fillM), fillM});
     source.minM = static_cast<double>(shared->minM);
     source.maxM = static_cast<double>(shared->maxM);
+    source.parts = [shared, hash = hashOf(settings)]() -> Result<std::vector<SourcePart>> {
+        std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(shared->fillM).hash(), {0, 0})};
+        for (const RasterArea& area : shared->areas) {
+            TRY_ASSIGN(const auto part, partOf(area, hash));
+            parts.push_back(part);
+        }
+        return parts;
+    };
     source.finestCells = [shared](const ChunkId& square) {
         int cells = 1;
         for (const RasterArea& area : shared->areas) cells = std::max(cells, finestCellsIn(area, square));

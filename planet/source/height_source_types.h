@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planet/base/result.h"
+#include "planet/format/source_record.h"
 #include "planet/raster/height_source_settings.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/cube_sphere.h"
@@ -63,6 +64,12 @@ struct HeightSource {
     // Returns how often the files of georeferenced rasters were read so far. Null: it is not counted. Several
     // threads may call it at once.
     std::function<SourceReads()> reads{};
+    // Of a source that is one part; beyond them a finer filter changes nothing.
+    SampleDensities densities{};
+    // Returns what the heights depend on, in the order in which it is joined: the heights of a place depend only on
+    // the parts whose caps hold it and on the grid of the filter; they are clamped to [minM, maxM]. Reads the
+    // files. Null: unknown. The Error names a file that cannot be read.
+    std::function<Result<std::vector<SourcePart>>()> parts{};
 
     // Returns the smallest power of two of cells along a face that loses no data under this square of its
     // face, [1, 2^22]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several

@@ -17,8 +17,10 @@
 #include "planet/raster/rim_distance.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/raster_parts.h"
 #include "planet/source/raster_sampling.h"
 #include "planet/source/sample_tiles.h"
+#include "planet/source/source_parts.h"
 #include "planet/source/terrain.h"
 #include "planet/source/terrain_sources.h"
 #include "planet/source/world_file.h"
@@ -41,6 +43,7 @@ struct RasterPart {
 struct WorldPart {
     WorldLayer layer;
     std::optional<DatumShift> shift;  // of the layer's heights to the planet's datum
+    std::uint64_t settings = 0;       // a hash of everything but the content that its heights depend on
     std::variant<std::unique_ptr<RasterPart>, HeightSource> content;
 };
 
@@ -181,6 +184,47 @@ SourceReads readsOf(const World& world) {
     return reads;
 }
 
+// Returns a hash of how a layer joins what lies under it. A layer's name does not count.
+std::uint64_t hashOf(const WorldLayer& layer, const std::optional<VerticalDatum>& planet,
+                     const std::optional<DatumShift>& shift, double radiusM,
+                     const HeightSourceSettings& settings) {
+    Fingerprint hash;
+    hash.add(hashOf(settings));
+    hash.add(static_cast<std::uint8_t>(layer.join)).add(static_cast<std::uint8_t>(layer.voids));
+    hash.add(layer.voidM).add(layer.featherM).add(layer.scale).add(layer.offsetM);
+    hash.add(static_cast<std::uint8_t>(shift.has_value()));
+    if (shift) {
+        hash.add(nameOf(*layer.datum)).add(nameOf(*planet)).add(shift->minM()).add(shift->maxM());
+    }
+    // Only widths in metres depend on the radius.
+    if (layer.featherM > 0 || layer.place) hash.add(radiusM);
+    if (layer.place) {
+        const ImagePlace& place = *layer.place;
+        hash.add(place.latitudeDeg).add(place.longitudeDeg).add(place.widthM).add(place.headingDeg);
+        hash.add(std::int32_t{layer.rawSize.value_or(0)});
+        hash.add(static_cast<std::uint8_t>(layer.rawBigEndian))
+            .add(static_cast<std::uint8_t>(layer.rawSigned));
+    }
+    return hash.hash();
+}
+
+Result<std::vector<SourcePart>> partsOf(const World& world) {
+    std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(world.fillM).hash(), {0, 0})};
+    for (const WorldPart& part : world.parts) {
+        if (const auto* const rasters = std::get_if<std::unique_ptr<RasterPart>>(&part.content)) {
+            TRY_ASSIGN(const auto made, partOf((*rasters)->area, part.settings));
+            parts.push_back(made);
+            continue;
+        }
+        TRY_ASSIGN(auto inner, std::get<HeightSource>(part.content).parts());
+        for (SourcePart& each : inner) {
+            each.signature = Fingerprint().add(part.settings).add(each.signature).hash();
+            parts.push_back(each);
+        }
+    }
+    return parts;
+}
+
 // The range, the resolution and the sample counts of a source of heights.
 struct Extent {
     double minM = 0;
@@ -237,6 +281,7 @@ public:
         source.sampleCount = extent_.sampleCount;
         source.missingCount = extent_.missingCount;
         const std::shared_ptr<const World> world = std::move(world_);
+        source.parts = [world] { return partsOf(*world); };
         source.finestCells = [world](const ChunkId& square) { return finestCellsIn(*world, square); };
         source.reads = [world] { return readsOf(*world); };
         source.sample = [world](const SampleTile& tile, std::span<float> out) {
@@ -256,6 +301,10 @@ private:
         if (!layer.datum || layer.datum == datum_ || layer.hasOffset) return {};
         TRY_ASSIGN(shift_, DatumShift::make(*layer.datum, *datum_));
         return {};
+    }
+
+    std::uint64_t settingsOf(const WorldLayer& layer) const {
+        return hashOf(layer, datum_, shift_, radiusM_, settings_);
     }
 
     void widen(const WorldLayer& layer, const Extent& part) {
@@ -288,7 +337,7 @@ private:
             world_->maxM = -world_->minM;
         }
         widen(layer, extentOf(source));
-        world_->parts.push_back({layer, shift_, std::move(source)});
+        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(source)});
         return {};
     }
 
@@ -322,7 +371,7 @@ private:
                 part->rim.emplace(part->area, std::min(1.0, layer.featherM / radiusM_),
                                   showsBelow ? RimDistance::Rims::TilesAndVoids : RimDistance::Rims::Tiles);
             }
-            world_->parts.push_back({layer, shift_, std::move(part)});
+            world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(part)});
         }
     }
 
@@ -342,7 +391,7 @@ private:
         world_->maxM = refined.maxM;
         extent_ = {refined.minM, refined.maxM, refined.naturalFaceSize - 1, extent.sampleCount,
                    extent.missingCount};
-        world_->parts.push_back({layer, shift_, std::move(refined)});
+        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(refined)});
         return {};
     }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "planet/bake/bake_reuse.h"
 #include "planet/bake/colour_report.h"
 #include "planet/bake/file_report.h"
 #include "planet/tree/chunk_tree.h"
@@ -108,6 +109,39 @@ void readColours(const ChunkFile& file) {
     }
 }
 
+// Copies from a file, as a bake does that finds nothing changed. Where the file is damaged, heights are 0.
+void copyChunks(const ChunkFile& file) {
+    const Result<std::optional<SourceRecord>> record = file.readSourceRecord();
+    const PlanetShape& shape = file.info().shape;
+    constexpr int mostCells = 128;  // along a face
+    if (!isRead(record) || !*record || faceCells(shape) > mostCells) return;
+    HeightSource source;
+    source.sample = [](const SampleTile&, std::span<float> out) {
+        std::ranges::fill(out, 0.0f);
+        return Result<void>{};
+    };
+    std::string notice;
+    const auto earlier = EarlierBake::make(file, source, shape, **record, notice);
+    require(earlier && earlier->difference().empty(), "a file is like itself");
+    const BakeContext bake{source, shape, 1};
+    BakeScratch scratch;
+    BakeWalk walk(source, shape, leafLevel(shape) - tileLevelOf(shape, {}), &*earlier);
+    std::uint64_t cells = 0;
+    while (const auto step = walk.next()) {
+        const auto made = runStep(bake, &*earlier, *step, scratch);
+        if (!isRead(made)) return;
+        cells += made->cells;
+        require(made->problem.empty() || made->copiedChunks == 0, "a damaged subtree is not copied");
+        for (const BakedTile& tile : made->tiles) {
+            const BlockLocation block = tile.root.entry.children;
+            require(!block.exists() || block.offset + block.size == provisionalOrigin + tile.blocks.size(),
+                    "the last block of a subtree is that of its root");
+        }
+    }
+    require(cells == faceCount * std::uint64_t(faceCells(shape)) * std::uint64_t(faceCells(shape)),
+            "every place is copied or baked");
+}
+
 // Changes the bytes of one block or of the header in place; else any bytes, and their number.
 std::size_t mutatedPart(std::span<std::uint8_t> file, std::size_t maxSize, std::minstd_rand& random) {
     const auto bytes = std::as_writable_bytes(file);
@@ -115,7 +149,10 @@ std::size_t mutatedPart(std::span<std::uint8_t> file, std::size_t maxSize, std::
     const unsigned kind = random() % 8;
     if (!info || kind == 0) return LLVMFuzzerMutate(file.data(), file.size(), maxSize);
     std::span<std::uint8_t> part = file.first(chunkFileHeaderBytes);
-    if (kind > 1) {
+    constexpr std::size_t mostRecordBytes = 256;
+    if (kind == 2 && info->hasSourceRecord) {
+        part = file.last(std::min(file.size(), mostRecordBytes));
+    } else if (kind > 1) {
         std::vector<test::FileBlock> blocks;
         test::forEachBlock(bytes, *info, 200, [&](const test::FileBlock& one) { blocks.push_back(one); });
         if (!blocks.empty()) {
@@ -145,6 +182,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!isRead(file)) return 0;
     static_cast<void>(isRead(reportFile(*file)));
     if (!growTree(*file)) readHeights(*file);
+    copyChunks(*file);
     if (file->info().colour) {
         static_cast<void>(isRead(reportColours(*file)));
         readColours(*file);

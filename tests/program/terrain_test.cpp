@@ -39,6 +39,27 @@ TEST_F(TerrainTest, EachKindIsBakedAndIsTheSameAgain) {
     }
 }
 
+TEST_F(TerrainTest, ABakeCopiesFromAnEarlierOneAndSaysSo) {
+    const std::string bake = "bake noise:fbm,seed=5 --face-size 257 --chunk-size 17 -o ";
+    ASSERT_EQ(runWorldy(folder, bake + "a.chk").exitCode, 0);
+    const std::string before = contentOf(folder / "a.chk");
+    const Ran text = runWorldy(folder, bake + "a.chk --reuse a.chk");
+    EXPECT_EQ(text.exitCode, 0) << text.errors;
+    EXPECT_THAT(text.output, HasSubstr(" of 2046 chunks copied from a.chk"));
+    EXPECT_EQ(contentOf(folder / "a.chk"), before);
+    const Ran ran = runWorldy(folder, bake + "b.chk --reuse a.chk --json");
+    const auto json = nlohmann::json::parse(ran.output);
+    EXPECT_GT(json["copied_chunks"], 1900);
+    EXPECT_EQ(json["sampled_cells"], 0);
+    EXPECT_EQ(json["reuse"], "a.chk");
+    const Ran other = runWorldy(folder, "bake noise:fbm,seed=5 --face-size 257 -o b.chk --reuse a.chk");
+    EXPECT_EQ(other.exitCode, 0);
+    EXPECT_THAT(other.errors, HasSubstr("a.chk: no chunk was copied from it, because its chunk size is 17"));
+    const Ran missing = runWorldy(folder, bake + "b.chk --reuse none.chk");
+    EXPECT_NE(missing.exitCode, 0);
+    EXPECT_THAT(missing.errors, HasSubstr("none.chk"));
+}
+
 TEST_F(TerrainTest, AnotherSeedMakesAnotherFile) {
     for (const char* seed : {"1", "2"}) {
         ASSERT_EQ(runWorldy(folder, std::string("bake noise:fbm,seed=") + seed + " --face-size 65 -o " +

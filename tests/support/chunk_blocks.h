@@ -10,6 +10,7 @@
 
 #include "planet/base/little_endian.h"
 #include "planet/format/chunk_file_format.h"
+#include "planet/format/source_record.h"
 #include "planet/sphere/block_id.h"
 
 namespace planet::test {
@@ -102,6 +103,16 @@ inline Result<ChunkFileInfo> infoOf(std::span<const std::byte> file) {
     return infoFromHeader(file.first<chunkFileHeaderBytes>(), "file", file.size());
 }
 
+// The checksum of the record of the source, if its length can be right.
+inline void resealRecord(std::span<std::byte> file) {
+    const auto tail = file.last<sourceRecordTailBytes>();
+    const auto length = sourceRecordLength(tail);
+    if (!length || *length + tail.size() > file.size()) return;
+    const auto record = file.last(*length + tail.size());
+    putAt(record, record.size() - checksumBytes,
+          sourceRecordChecksum(record.first(record.size() - checksumBytes)));
+}
+
 // All that is checked by checksums: what is nonsense then has to be found by looking.
 inline void reseal(std::span<std::byte> file, std::size_t mostBlocks = 1000) {
     resealHeader(file);
@@ -110,6 +121,7 @@ inline void reseal(std::span<std::byte> file, std::size_t mostBlocks = 1000) {
     std::vector<FileBlock> blocks;
     forEachBlock(file, *info, mostBlocks, [&](const FileBlock& block) { blocks.push_back(block); });
     for (const FileBlock& block : blocks) resealBlock(file, block);
+    if (info->hasSourceRecord) resealRecord(file);
 }
 
 }  // namespace planet::test

@@ -249,6 +249,27 @@ TEST_F(SessionTest, aBakeIntoTheOpenFileLeavesBothReadable) {
     expectLoads(session.previous->scene);
 }
 
+TEST_F(SessionTest, aBakeCopiesFromTheOpenFileOrFromTheCache) {
+    const fs::path source = writeSource();
+    Session session = sessionOf(source);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    ASSERT_TRUE(bakeViewOf(session).lastReport);
+    EXPECT_GT(bakeViewOf(session).lastReport->sampledCells, 0u);
+    // A planet of one level has no blocks to copy, but its heights are taken.
+    const auto copiesAll = [&](Session& baked) {
+        const auto report = bakeViewOf(baked).lastReport;
+        return report && report->sampledCells == 0;
+    };
+    startBake(session, bakeViewOf(session).current, log_);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    EXPECT_TRUE(copiesAll(session)) << "from the open file";
+    // The file is touched, so its bake has another name, but its heights are the same.
+    fs::last_write_time(source, fs::last_write_time(source) + std::chrono::seconds(5));
+    Session other = sessionOf(source);
+    ASSERT_TRUE(advanceUntilQuiet(other));
+    EXPECT_TRUE(copiesAll(other)) << "from the cache";
+}
+
 TEST_F(SessionTest, openingAnotherFileDuringABakeCancelsIt) {
     const fs::path source = writeSource();
     Session session = sessionOf(source);

@@ -400,7 +400,12 @@ void outcomeLines(const BakeView& bake) {
                 ? std::string()
                 : fmt::format("; {} colour tiles, {}", countText(static_cast<double>(report.colourTiles)),
                               bytesText(static_cast<double>(report.colourBytes)));
-        ImGui::TextColored(palette().good, "%s", (text + colours).c_str());
+        const std::string copied = report.copiedChunks == 0
+                                       ? std::string()
+                                       : fmt::format("; {} of {} chunks copied from an earlier bake",
+                                                     countText(static_cast<double>(report.copiedChunks)),
+                                                     countText(static_cast<double>(report.chunks)));
+        ImGui::TextColored(palette().good, "%s", (text + colours + copied).c_str());
         tooltip(
             "Root errors are the largest geometric errors of the six root chunks: additive (δc) sums the "
             "errors of all levels; tight is the largest measured distance to the finest samples.");

@@ -1,0 +1,16 @@
+// What the heights of rasters on one grid depend on (source_parts.h). Internal to the library; any thread.
+#pragma once
+
+#include <cstdint>
+
+#include "planet/base/result.h"
+#include "planet/format/source_record.h"
+#include "planet/raster/raster_area.h"
+
+namespace planet {
+
+// Returns the part of rasters on one grid. settings: a hash of everything but the files that their heights
+// depend on.
+Result<SourcePart> partOf(const RasterArea& area, std::uint64_t settings);
+
+}  // namespace planet
