@@ -39,7 +39,7 @@ inline constexpr std::size_t maxFlightChunks = 1u << 20;            // chunks dr
 struct FlightData {
     std::string chunkFile;  // path when recorded
     planet::PlanetShape shape;
-    std::uint64_t fileBytes = 0;  // without the record of the source
+    std::uint64_t fileBytes = 0;   // without the record of the source
     std::uint64_t headerHash = 0;  // XXH3
 };
 FlightData flightDataOf(const planet::ChunkFile& file);
