@@ -244,6 +244,7 @@ Result<std::vector<ColourBlock>> colourBlocks(const ChunkFile& file) {
         for (const ColourBlock& block : levels[level]) {
             TRY_ASSIGN(const auto entries, readColourBlock(file, block, bytes));
             for (std::size_t q = 0; q < entries.size() && level + 1 < levels.size(); ++q) {
+                if (!entries[q].children.exists()) continue;
                 ChunkId tile = block.firstTile;
                 tile.x += static_cast<std::uint32_t>(q & 1);
                 tile.y += static_cast<std::uint32_t>(q >> 1);
