@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ constexpr int filterCellsOf(const SampleTile& tile) {
     return tile.filterCells > 0 ? tile.filterCells : tile.faceCells;
 }
 
+struct SourceLayers;
+
 // Copies share the open files. Several threads may call sample at once.
 struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
@@ -54,6 +57,8 @@ struct HeightSource {
     std::string notice{};
     // A message for each file that was left out because of HeightSourceSettings::skipBroken.
     std::vector<std::string> skipped{};
+    // What the source consists of, and which layer made the height of a place (source_layers.h). Null for colours.
+    std::shared_ptr<const SourceLayers> layers{};
 
     // Returns the smallest power of two of cells along a face that loses no data under this square of its
     // face, [1, 2^22]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several
