@@ -130,7 +130,7 @@ Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onG
     for (std::size_t i = tiles.size(); i-- > 0;) {
         TRY_ASSIGN(const auto height, heightOf(tiles[i]));
         if (std::isnan(height) && i > 0) continue;
-        reading.file = tiles[i].tile->raster->path();
+        reading.file = tiles[i].tile->raster->path().lexically_normal();
         reading.column = tiles[i].column;
         reading.row = tiles[i].row;
         reading.isVoid = std::isnan(height);
