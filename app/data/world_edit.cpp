@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -106,6 +107,8 @@ bool sameWorld(const WorldEdit& a, const WorldEdit& b) {
 }
 
 Result<void> checkEdit(const WorldEdit& edit) {
+    if (std::ranges::none_of(edit.layers, &EditedLayer::on))
+        return planet::badInput("no layer is on; expected at least one");
     const fs::path place = "/edited layers";
     const Result<planet::WorldFile> world = planet::worldFromText(textOf(edit, "/"), place);
     if (world) return {};

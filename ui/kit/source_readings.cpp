@@ -70,7 +70,9 @@ void sourceReadings(const char* id, const SourcesView& sources, const std::optio
             "-1000.0 m", false},
         TableColumn{"Share", 0, "Share of the layer by its feather.", "100 %", false}};
     const planet::SourceReading* const top = planet::topmost(place->readings);
-    if (beginListTable(id, columns, 2 * place->readings.size())) {
+    std::size_t lines = 0;
+    for (const planet::SourceReading& reading : place->readings) lines += reading.file.empty() ? 1 : 2;
+    if (beginListTable(id, columns, lines)) {
         for (const planet::SourceReading& reading : place->readings)
             readingRow(sources, reading, &reading == top);
         ImGui::EndTable();

@@ -47,7 +47,7 @@ TEST_F(WorldEdits, LayerThatIsOffIsNeitherBakedNorSaved) {
     EXPECT_FALSE(sameWorld(edit, mustEdit(folder / "world.toml")));
     edit.layers[1].on = false;
     ASSERT_FALSE(checkEdit(edit));
-    EXPECT_THAT(checkEdit(edit).error().message, HasSubstr("has 0 layers"));
+    EXPECT_THAT(checkEdit(edit).error().message, HasSubstr("no layer is on; expected at least one"));
 }
 
 TEST_F(WorldEdits, SourceThatIsNoWorldFileIsOneLayer) {
@@ -58,13 +58,15 @@ TEST_F(WorldEdits, SourceThatIsNoWorldFileIsOneLayer) {
     const WorldEdit detail = mustEdit("detail:strength=0.5,of=/somewhere/image.tif");
     ASSERT_EQ(detail.layers.size(), 2u);
     EXPECT_EQ(detail.layers[0].layer.files[0], "/somewhere/image.tif");
-    EXPECT_EQ(detail.layers[1].layer.detail, "detail:strength=0.5");
-    EXPECT_EQ(mustEdit("detail:of=/somewhere/image.tif").layers[1].layer.detail, "detail:");
+    EXPECT_EQ(detail.layers[1].layer.detail, "detail:seed=1,strength=0.5");
+    EXPECT_EQ(mustEdit("detail:of=/somewhere/image.tif").layers[1].layer.detail, "detail:seed=1");
     EXPECT_TRUE(checkEdit(detail));
 }
 
 TEST_F(WorldEdits, SourceSettingsCannotBecomeLayers) {
-    const auto edit = editOf("/somewhere/image.tif", {.noDataValue = -1});
+    planet::HeightSourceSettings settings;
+    settings.noDataValue = -1;
+    const auto edit = editOf("/somewhere/image.tif", settings);
     ASSERT_FALSE(edit);
     EXPECT_THAT(edit.error().message, HasSubstr("/somewhere/image.tif: was opened with units"));
 }
