@@ -128,13 +128,15 @@ void addLayer(WorldEdit& edit, std::span<const fs::path> files) {
 
 Result<fs::path> writeForBake(const WorldEdit& edit, const fs::path& folder, const std::string& stem) {
     if (Result<void> good = checkEdit(edit); !good) return tl::unexpected(std::move(good).error());
-    const std::string text = textOf(edit, folder);
-    const fs::path file = folder / fmt::format("{}-{:016x}.toml", stem, contentHash(text));
+    // The name of the file stands in messages and in the chunk file, so it has no hash.
+    const fs::path own = folder / fmt::format("{:016x}", contentHash(textOf(edit, folder)));
+    const fs::path file = own / (stem + ".toml");
     std::error_code problem;
     if (fs::exists(file, problem)) return file;
-    fs::create_directories(folder, problem);
+    fs::create_directories(own, problem);
     if (problem)
-        return planet::ioError(fmt::format("{}: cannot be created: {}", folder.string(), problem.message()));
+        return planet::ioError(fmt::format("{}: cannot be created: {}", own.string(), problem.message()));
+    const std::string text = textOf(edit, own);
     return write(text, file).map([&] { return file; });
 }
 

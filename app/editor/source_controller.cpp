@@ -257,7 +257,9 @@ bool takeDroppedFile(SourceController& sources, const std::filesystem::path& fil
 ui::SourcesView sourcesViewOf(const SourceController& sources, const Session& session) {
     using State = ui::SourcesView::State;
     ui::SourcesView view;
-    view.source = sources.source;
+    // The world file of a bake of edited layers stands for their own source.
+    const bool isBakeOfEdits = !sources.source.empty() && sources.source == sources.editing.baked;
+    view.source = isBakeOfEdits ? sources.editing.source : sources.source;
     view.problem = sources.problem;
     view.layers = sources.layers.get();
     view.state = sources.layers             ? State::Read

@@ -61,12 +61,12 @@ TEST_F(SourcesProgram, LayersAreSwitchedMovedBakedAndSavedInTheWindow) {
 key ctrl+shift+9; expect shown "sources/layer Mesa"
 with=$(viewport)
 # Off, the layer is not baked.
-click "sources/on Mesa"; click sources/Bake; expect says 'Baking .*worlds/world-'; expect counts baking -eq 0
+click "sources/on Mesa"; click sources/Bake; expect says 'Baking .*worlds/'; expect counts baking -eq 0
 settle; differs "$with" || echo "the mesa is still there"
 click sources/Revert; click "sources/layer Mesa"; click sources/Down; click sources/Bake; expect counts baking -eq 0; settle
 # Under the hills, the mesa does not show.
 differs "$with" || echo "the mesa is still on top"
-enter sources/File "$PWD/saved.toml"; click "sources/Save as"; expect says 'World file .*saved.toml saved'
+reach sources/Up "sources/Save as"; enter sources/File "$PWD/saved.toml"; click "sources/Save as"; expect says 'World file .*saved.toml saved'
 )sh",
                                 usualScreen);
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
@@ -84,7 +84,7 @@ opened="$(counter file)"
 drop second.tif; expect shown "drop/Add as a layer"; key Escape; expect hidden "drop/Add as a layer"
 drop second.tif; expect shown "drop/Add as a layer"; click "drop/Add as a layer"
 expect shown "sources/layer second.tif"
-before=$(viewport); click sources/Bake; expect says 'Baking .*worlds/world-'; expect counts baking -eq 0; settle
+before=$(viewport); click sources/Bake; expect says 'Baking .*worlds/'; expect counts baking -eq 0; settle
 differs "$before" || echo "the second raster does not show"
 drop second.tif; click "drop/Open as a planet"; expect says 'Baking .*second.tif'; expect counts baking -eq 0
 [ "$(counter file)" != "$opened" ] || echo "the planet is still $(counter file)"

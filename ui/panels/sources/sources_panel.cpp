@@ -10,6 +10,7 @@
 #include "app/base/text.h"
 #include "app/scene/overlay_colours.h"
 #include "app/scene/source_lines.h"
+#include "planet/source/terrain.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/setting_controls.h"
 #include "ui/kit/source_readings.h"
@@ -258,13 +259,18 @@ void chosenLayer(const EditorView& view, const std::vector<LayerRow>& rows, std:
     if (row.read) brokenFiles(*row.read);
 }
 
+// Returns a file beside the source; in the current folder for terrain.
+std::filesystem::path proposedFile(const std::filesystem::path& source) {
+    if (planet::isTerrainText(source)) return "world.toml";
+    const bool isPattern = source.string().find_first_of("*?[|") != std::string::npos;
+    return source.parent_path() / (isPattern ? "world.toml" : source.stem().string() + "-edited.toml");
+}
+
 void saveControls(const SourcesView& sources, SourcesPanelState& state, Commands& commands) {
     if (!section("Save as a world file")) return;
     if (state.saveAsOf != sources.source) {
         state.saveAsOf = sources.source;
-        std::filesystem::path proposed = sources.source;
-        proposed.replace_filename(proposed.stem().string() + "-edited.toml");
-        const std::string text = proposed.string();
+        const std::string text = proposedFile(sources.source).string();
         state.saveAs.fill('\0');
         std::copy_n(text.begin(), std::min(text.size(), state.saveAs.size() - 1), state.saveAs.begin());
     }
