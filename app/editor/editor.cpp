@@ -80,14 +80,14 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::collectItems(window_.itemMapFile.empty() ? nullptr : &items);
 
     ui::Commands commands;
-    takeDrops(window, window_.panels.bake, sources_, commands);
+    takeDrops(window, window_.panels.bake, bakes_.sources, commands);
     advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
     advanceEstimate(bakes_.estimator);
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
     reloadChangedShaders(session, notices_.log);
-    advanceSources(sources_, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
+    advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
                    notices_.log);
     FrameStats stats;
     if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, secondsSinceLast, commands);
@@ -195,8 +195,12 @@ void Editor::chooseChunks(Scene& scene, const FrameStep& step) {
 
 void Editor::drawPictures(Scene& scene) {
     const ViewSettings& settings = settings_.settings.view;
-    const PictureInput input{
-        scene, settings, camera_, chunks_.focus, tintDataOf(sources_), sources_.layers.get()};
+    const PictureInput input{scene,
+                             settings,
+                             camera_,
+                             chunks_.focus,
+                             tintDataOf(bakes_.sources),
+                             bakes_.sources.reader.layers.get()};
     drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), notices_.log);
     const bool counting = settings.compare.mode == CompareMode::Difference ||
                           isShown(settings_.settings.workspace, PanelId::Compare);
@@ -225,7 +229,7 @@ ui::EditorView Editor::view(Session& session) {
             .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
             .sweep = sweepViewOf(sweep_),
             .layers = layersViewOf(layers_, scene, settings.surface.layers),
-            .sources = sourcesViewOf(sources_, session)};
+            .sources = sourcesViewOf(bakes_.sources, session)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
@@ -276,8 +280,8 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                                 notices_);
             },
             [&](const ui::SourceCommand& c) {
-                worldy::execute(sources_, c, shownPlanet(session), settings_.settings.workspace, notices_,
-                                next);
+                worldy::execute(bakes_.sources, c, shownPlanet(session), settings_.settings.workspace,
+                                notices_, next);
             },
         },
         command.feature());
@@ -296,8 +300,9 @@ void Editor::watchAllocations(const Session& session) {
         .jobs = std::size_t{instruments_.errors.job != nullptr} +
                 std::size_t{compare_.flight.job != nullptr} + std::size_t{sweep_.job != nullptr} +
                 std::size_t{bakes_.estimator.job != nullptr} + std::size_t{bakes_.preview.job != nullptr} +
-                std::size_t{sources_.reading != nullptr} + std::size_t{sources_.places != nullptr} +
-                std::size_t{sources_.depthsJob != nullptr} + sources_.ending.size()};
+                std::size_t{bakes_.sources.reader.job != nullptr} +
+                std::size_t{bakes_.sources.queries.job != nullptr} +
+                std::size_t{bakes_.sources.depths.job != nullptr} + bakes_.sources.reader.ending.size()};
     const bool wanted = isShown(settings_.settings.workspace, PanelId::Frame);
     worldy::watchAllocations(sources, wanted, std::exchange(instruments_.markAllocations, false),
                              instruments_.allocations);

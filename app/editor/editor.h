@@ -18,7 +18,6 @@
 #include "app/editor/recording_controller.h"
 #include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
-#include "app/editor/source_controller.h"
 #include "app/editor/sweep_controller.h"
 #include "app/editor/viewport.h"
 #include "app/editor/window.h"
@@ -71,7 +70,6 @@ private:
     RecordingController recording_;
     SweepController sweep_;
     CompareController compare_;
-    SourceController sources_;
 };
 
 }  // namespace worldy

@@ -47,67 +47,68 @@ void readEdits(LayerEditing& editing, const std::filesystem::path& source,
 
 void meetPlanet(SourceController& sources, const OpenPlanet& open) {
     if (open.scene.identity == sources.scene) return;
-    if (sources.reading) sources.ending.push_back(std::move(sources.reading));
+    if (sources.reader.job) sources.reader.ending.push_back(std::move(sources.reader.job));
     sources.scene = open.scene.identity;
     sources.source = open.sourceIsThere ? open.baked.source : std::filesystem::path();
     sources.settings = open.baked.sourceSettings;
-    sources.asked = false;
-    sources.layers = open.layers;
-    sources.problem.clear();
-    sources.places.reset();
-    sources.tops.clear();
-    sources.selected.reset();
-    sources.pointed.reset();
-    sources.depthsJob.reset();
-    sources.depths.reset();
+    sources.reader.asked = false;
+    sources.reader.layers = open.layers;
+    sources.reader.problem.clear();
+    sources.queries.job.reset();
+    sources.queries.tops.clear();
+    sources.queries.selected.reset();
+    sources.queries.pointed.reset();
+    sources.depths.job.reset();
+    sources.depths.depths.reset();
     readEdits(sources.editing, sources.source, sources.settings);
 }
 
 void readSource(SourceController& sources, const Settings& settings, const Log& log) {
-    std::erase_if(sources.ending, [](const auto& job) { return job->takeResult().has_value(); });
-    if (sources.reading) {
-        std::optional<planet::Result<SharedLayers>> result = sources.reading->takeResult();
+    std::erase_if(sources.reader.ending, [](const auto& job) { return job->takeResult().has_value(); });
+    if (sources.reader.job) {
+        std::optional<planet::Result<SharedLayers>> result = sources.reader.job->takeResult();
         if (!result) return;
-        sources.reading.reset();
+        sources.reader.job.reset();
         if (*result) {
-            sources.layers = **result;
+            sources.reader.layers = **result;
         } else {
-            sources.problem = result->error().message;
-            log->error("{}", sources.problem);
+            sources.reader.problem = result->error().message;
+            log->error("{}", sources.reader.problem);
         }
     }
     const OverlaySettings& overlay = settings.view.overlay;
-    const bool wanted = sources.asked || isInFront(settings.workspace, PanelId::Sources) || overlay.sources ||
-                        overlay.colourBy == ColourBy::Source;
-    if (!wanted || sources.layers || !sources.problem.empty() || sources.source.empty()) return;
-    sources.reading = std::make_unique<SourceJob>(sources.source, sources.settings);
+    const bool wanted = sources.reader.asked || isInFront(settings.workspace, PanelId::Sources) ||
+                        overlay.sources || overlay.colourBy == ColourBy::Source;
+    if (!wanted || sources.reader.layers || !sources.reader.problem.empty() || sources.source.empty()) return;
+    sources.reader.job = std::make_unique<SourceJob>(sources.source, sources.settings);
 }
 
 void readDepths(SourceController& sources, const planet::Planet& planet, const OverlaySettings& overlay,
                 const Log& log) {
-    if (sources.depthsJob) {
-        std::optional<planet::Result<LeafDepths>> result = sources.depthsJob->takeResult();
+    if (sources.depths.job) {
+        std::optional<planet::Result<LeafDepths>> result = sources.depths.job->takeResult();
         if (!result) return;
-        sources.depthsJob.reset();
+        sources.depths.job.reset();
         // Without the index, only leaves have a tint.
         if (!*result) log->error("{}", result->error().message);
-        sources.depths = *result ? **std::move(result) : LeafDepths{};
+        sources.depths.depths = *result ? **std::move(result) : LeafDepths{};
     }
-    if (sources.depths || (overlay.colourBy != ColourBy::LeafDepth && overlay.colourBy != ColourBy::Spacing))
+    if (sources.depths.depths ||
+        (overlay.colourBy != ColourBy::LeafDepth && overlay.colourBy != ColourBy::Spacing))
         return;
-    sources.depthsJob = std::make_unique<LeafDepthsJob>(planet.file());
+    sources.depths.job = std::make_unique<LeafDepthsJob>(planet.file());
 }
 
 void takeAnswers(SourceController& sources) {
-    if (!sources.places) return;
-    const std::optional<std::vector<PlaceAnswer>> answers = sources.places->takeResult();
+    if (!sources.queries.job) return;
+    const std::optional<std::vector<PlaceAnswer>> answers = sources.queries.job->takeResult();
     if (!answers) return;
-    sources.places.reset();
+    sources.queries.job.reset();
     std::size_t next = 0;
-    if (sources.tops.size() > mostTops) sources.tops.clear();
-    for (const planet::ChunkId& chunk : sources.askedChunks) {
+    if (sources.queries.tops.size() > mostTops) sources.queries.tops.clear();
+    for (const planet::ChunkId& chunk : sources.queries.chunks) {
         const planet::SourceReading* const top = planet::topmost((*answers)[next++].readings);
-        sources.tops[chunk] = top ? std::optional(top->layer) : std::nullopt;
+        sources.queries.tops[chunk] = top ? std::optional(top->layer) : std::nullopt;
     }
     const auto take = [&](std::optional<planet::Geographic>& asked, std::optional<ui::PlaceReadings>& into) {
         if (!asked) return;
@@ -115,8 +116,8 @@ void takeAnswers(SourceController& sources) {
         into = ui::PlaceReadings{*asked, answer.readings, answer.problem};
         asked.reset();
     };
-    take(sources.askedSelected, sources.selected);
-    take(sources.askedPointed, sources.pointed);
+    take(sources.queries.selectedPlace, sources.queries.selected);
+    take(sources.queries.pointedPlace, sources.queries.pointed);
 }
 
 bool isSame(const planet::Geographic& a, const planet::Geographic& b) {
@@ -142,15 +143,16 @@ void askPlaces(SourceController& sources, const SourceFrame& frame) {
     takeAnswers(sources);
     const std::optional<planet::Geographic> middle =
         frame.focus.selected ? std::optional(middleOf(*frame.focus.selected)) : std::nullopt;
-    if (sources.selected && (!middle || !isSame(sources.selected->place, *middle))) sources.selected.reset();
-    if (!sources.layers || sources.places) return;
+    if (sources.queries.selected && (!middle || !isSame(sources.queries.selected->place, *middle)))
+        sources.queries.selected.reset();
+    if (!sources.reader.layers || sources.queries.job) return;
     std::vector<planet::Geographic> places;
-    sources.askedChunks.clear();
+    sources.queries.chunks.clear();
     if (frame.settings.view.overlay.colourBy == ColourBy::Source) {
         for (const planet::DrawItem& item : frame.open->scene.planet->selection().draw) {
-            if (sources.askedChunks.size() == mostAskedChunks) break;
-            if (sources.tops.contains(item.id)) continue;
-            sources.askedChunks.push_back(item.id);
+            if (sources.queries.chunks.size() == mostAskedChunks) break;
+            if (sources.queries.tops.contains(item.id)) continue;
+            sources.queries.chunks.push_back(item.id);
             places.push_back(middleOf(item.id));
         }
     }
@@ -161,9 +163,10 @@ void askPlaces(SourceController& sources, const SourceFrame& frame) {
         asked = place;
         places.push_back(*place);
     };
-    ask(middle, sources.selected, sources.askedSelected);
-    ask(pointedPlace(frame), sources.pointed, sources.askedPointed);
-    if (!places.empty()) sources.places = std::make_unique<PlacesJob>(sources.layers, std::move(places));
+    ask(middle, sources.queries.selected, sources.queries.selectedPlace);
+    ask(pointedPlace(frame), sources.queries.pointed, sources.queries.pointedPlace);
+    if (!places.empty())
+        sources.queries.job = std::make_unique<PlacesJob>(sources.reader.layers, std::move(places));
 }
 
 void changeEdit(LayerEditing& editing, WorldEdit edit) {
@@ -223,8 +226,8 @@ void execute(SourceController& sources, const ui::SourceCommand& command, const 
     LayerEditing& editing = sources.editing;
     std::visit(Overloaded{
                    [&](const ui::ReadSource&) {
-                       sources.asked = true;
-                       sources.problem.clear();
+                       sources.reader.asked = true;
+                       sources.reader.problem.clear();
                    },
                    [&](const ui::EditLayers& edit) { changeEdit(editing, edit.edit); },
                    [&](const ui::RevertLayers&) {
@@ -260,28 +263,28 @@ ui::SourcesView sourcesViewOf(const SourceController& sources, const Session& se
     // The world file of a bake of edited layers stands for their own source.
     const bool isBakeOfEdits = !sources.source.empty() && sources.source == sources.editing.baked;
     view.source = isBakeOfEdits ? sources.editing.source : sources.source;
-    view.problem = sources.problem;
-    view.layers = sources.layers.get();
-    view.state = sources.layers             ? State::Read
-                 : sources.source.empty()   ? State::Unknown
-                 : sources.reading          ? State::Reading
-                 : !sources.problem.empty() ? State::Failed
-                                            : State::Unread;
+    view.problem = sources.reader.problem;
+    view.layers = sources.reader.layers.get();
+    view.state = sources.reader.layers             ? State::Read
+                 : sources.source.empty()          ? State::Unknown
+                 : sources.reader.job              ? State::Reading
+                 : !sources.reader.problem.empty() ? State::Failed
+                                                   : State::Unread;
     const LayerEditing& editing = sources.editing;
     if (editing.file) view.edit = &editing.edit;
     view.editProblem = editing.problem;
     view.edited = editing.changed;
     view.bakeProblem = editing.bakeProblem;
     view.baking = session.bake.has_value();
-    view.selected = sources.selected;
-    view.pointed = sources.pointed;
+    view.selected = sources.queries.selected;
+    view.pointed = sources.queries.pointed;
     view.dropped = sources.dropped;
     return view;
 }
 
 TintData tintDataOf(const SourceController& sources) {
-    return {.depths = sources.depths ? &*sources.depths : nullptr,
-            .tops = sources.layers ? &sources.tops : nullptr};
+    return {.depths = sources.depths.depths ? &*sources.depths.depths : nullptr,
+            .tops = sources.reader.layers ? &sources.queries.tops : nullptr};
 }
 
 }  // namespace worldy

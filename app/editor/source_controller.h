@@ -32,29 +32,40 @@ struct LayerEditing {
     std::string bakeProblem{};  // why they cannot be baked
 };
 
+// Opens the source for its layers.
+struct SourceReader {
+    bool asked = false;   // the user wants it to be read
+    SharedLayers layers;  // null until it is read
+    std::string problem;  // why it cannot be read
+    std::unique_ptr<SourceJob> job;
+    std::vector<std::unique_ptr<SourceJob>> ending;  // of former planets; nothing waits for them
+};
+
+// Asks the layers about places, one batch at a time.
+struct PlaceQueries {
+    std::unique_ptr<PlacesJob> job;
+    std::vector<planet::ChunkId> chunks;  // the first places of the job; then the others, if they are set
+    std::optional<planet::Geographic> selectedPlace;
+    std::optional<planet::Geographic> pointedPlace;
+    SourceTops tops;  // the answers
+    std::optional<ui::PlaceReadings> selected;
+    std::optional<ui::PlaceReadings> pointed;
+};
+
+// Reads how deep the quadtree goes.
+struct DepthReader {
+    std::unique_ptr<LeafDepthsJob> job;
+    std::optional<LeafDepths> depths;
+};
+
 struct SourceController {
     std::shared_ptr<const int> scene;  // the planet that the rest is about
     std::filesystem::path source;      // empty: not known
     planet::HeightSourceSettings settings;
-    bool asked = false;  // the user wants it to be read
-    SharedLayers layers;
-    std::string problem;  // why it cannot be read
-    std::unique_ptr<SourceJob> reading;
-    std::vector<std::unique_ptr<SourceJob>> ending;  // of former planets; nothing waits for them
+    SourceReader reader;
     LayerEditing editing;
-
-    std::unique_ptr<PlacesJob> places;
-    std::vector<planet::ChunkId>
-        askedChunks;  // the first places of the job; then the others, if they are set
-    std::optional<planet::Geographic> askedSelected;
-    std::optional<planet::Geographic> askedPointed;
-    SourceTops tops;
-    std::optional<ui::PlaceReadings> selected;
-    std::optional<ui::PlaceReadings> pointed;
-
-    std::unique_ptr<LeafDepthsJob> depthsJob;
-    std::optional<LeafDepths> depths;
-
+    PlaceQueries queries;
+    DepthReader depths;
     std::vector<std::filesystem::path> dropped;  // rasters that wait for the answer to the drop question
 };
 

@@ -70,7 +70,7 @@ void sourceReadings(const char* id, const SourcesView& sources, const std::optio
             "-1000.0 m", false},
         TableColumn{"Share", 0, "Share of the layer by its feather.", "100 %", false}};
     const planet::SourceReading* const top = planet::topmost(place->readings);
-    std::size_t lines = 0;
+    std::size_t lines = 1;  // the lines of a sample are a little apart
     for (const planet::SourceReading& reading : place->readings) lines += reading.file.empty() ? 1 : 2;
     if (beginListTable(id, columns, lines)) {
         for (const planet::SourceReading& reading : place->readings)

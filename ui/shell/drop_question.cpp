@@ -15,8 +15,8 @@ namespace {
 std::string questionOf(const SourcesView& sources) {
     const std::string first = sources.dropped.front().filename().string();
     const std::size_t others = sources.dropped.size() - 1;
-    return others == 0 ? fmt::format("What shall {} be?", first)
-                       : fmt::format("What shall {} and {} more be?", first, others);
+    return others == 0 ? fmt::format("How should {} be opened?", first)
+                       : fmt::format("How should {} and {} more be opened?", first, others);
 }
 
 }  // namespace

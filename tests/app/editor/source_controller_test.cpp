@@ -75,17 +75,17 @@ TEST_F(SourceControllerTest, BakedPlanetKnowsItsLayersAndAChunkFileDoesNot) {
 
 TEST_F(SourceControllerTest, SelectedChunkAndTintSayTheTopmostLayer) {
     Session session = sessionOf(folder_ / "world.toml");
-    ASSERT_TRUE(framesUntil(session, [&] { return session.open && sources_.layers; }));
+    ASSERT_TRUE(framesUntil(session, [&] { return session.open && sources_.reader.layers; }));
     const planet::Geographic middle{45 * planet::test::radPerDeg, 10 * planet::test::radPerDeg};
     focus_.selected =
         planet::chunkAt(planet::facePointFromDirection(planet::directionFromGeographic(middle)), 10);
-    ASSERT_TRUE(framesUntil(session, [&] { return sources_.selected.has_value(); }));
-    ASSERT_EQ(sources_.selected->readings.size(), 2u);
-    EXPECT_EQ(sources_.selected->readings[0].heightM, 500);
-    EXPECT_EQ(sources_.selected->readings[0].file, folder_ / "mesa.tif");
-    EXPECT_EQ(sources_.selected->readings[1].file, folder_ / "slope.pgm");
+    ASSERT_TRUE(framesUntil(session, [&] { return sources_.queries.selected.has_value(); }));
+    ASSERT_EQ(sources_.queries.selected->readings.size(), 2u);
+    EXPECT_EQ(sources_.queries.selected->readings[0].heightM, 500);
+    EXPECT_EQ(sources_.queries.selected->readings[0].file, folder_ / "mesa.tif");
+    EXPECT_EQ(sources_.queries.selected->readings[1].file, folder_ / "slope.pgm");
     focus_.selected.reset();
-    ASSERT_TRUE(framesUntil(session, [&] { return !sources_.selected; }));
+    ASSERT_TRUE(framesUntil(session, [&] { return !sources_.queries.selected; }));
 
     editor_.view.overlay.colourBy = ColourBy::Source;
     editor_.view.lod.tauPx = 0.1;
@@ -94,7 +94,7 @@ TEST_F(SourceControllerTest, SelectedChunkAndTintSayTheTopmostLayer) {
                              session.open->scene.planet->tree().shape.radiusM, 1, 64, 64);
     ASSERT_TRUE(settleScene(session.open->scene, over, editor_.view, 60));
     const planet::Selection& drawn = session.open->scene.planet->selection();
-    ASSERT_TRUE(framesUntil(session, [&] { return sources_.tops.size() >= drawn.draw.size(); }));
+    ASSERT_TRUE(framesUntil(session, [&] { return sources_.queries.tops.size() >= drawn.draw.size(); }));
     int onMesa = 0;
     for (const planet::DrawItem& item : drawn.draw) {
         const planet::FaceSquare square = planet::faceSquareOf(item.id);
@@ -102,12 +102,12 @@ TEST_F(SourceControllerTest, SelectedChunkAndTintSayTheTopmostLayer) {
             planet::cubePoint(item.id.face, square.u + square.side / 2, square.v + square.side / 2)));
         const double off = std::max(std::abs(place.latitudeRad / planet::test::radPerDeg - 45),
                                     std::abs(place.longitudeRad / planet::test::radPerDeg - 10));
-        EXPECT_EQ(sources_.tops.at(item.id), off < 2.525 ? 1u : 0u) << toString(item.id);
+        EXPECT_EQ(sources_.queries.tops.at(item.id), off < 2.525 ? 1u : 0u) << toString(item.id);
         onMesa += off < 2.525 ? 1 : 0;
     }
     EXPECT_GT(onMesa, 0);
     editor_.view.overlay.colourBy = ColourBy::LeafDepth;
-    ASSERT_TRUE(framesUntil(session, [&] { return sources_.depths.has_value(); }));
+    ASSERT_TRUE(framesUntil(session, [&] { return sources_.depths.depths.has_value(); }));
 }
 
 TEST_F(SourceControllerTest, EditedLayersAreBakedAndOutliveTheirPlanet) {

@@ -261,7 +261,7 @@ TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
 TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     Settings here, there = allOther();
     const std::vector<SettingDifference> all = differences(here, there);
-    EXPECT_EQ(all.size(), 105u);
+    EXPECT_EQ(all.size(), 106u);
     EXPECT_THAT(differences(there, there), IsEmpty());
     there = here;
     there.view.lod.tauPx = 3.5;
