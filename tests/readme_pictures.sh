@@ -24,6 +24,7 @@ sed -n '/windowFunctions = R/,/)sh";/p' "$here/tests/program/editor_window.h" | 
 . ./functions.sh
 # A short path, because the pictures show it.
 cp -r "$here/data/earth" earth
+cp -r "$here/data/regions" regions
 
 Xvfb -displayfd 3 -screen 0 1920x1200x24 -nolisten tcp 3>display.txt 2>/dev/null &
 server=$!
@@ -50,11 +51,11 @@ only() {
     done
 }
 
-# Starts the program on the Earth with the settings of stdin.
+# Starts the program on the Earth, or on the source $world, with the settings of stdin.
 start() {
     cat >settings.toml
     rm -f items.txt .stderr
-    timeout 300 "$binary" earth/elevation.tif --settings settings.toml --item-map items.txt 2>.stderr </dev/null &
+    timeout 300 "$binary" "${world:-earth/elevation.tif}" --settings settings.toml --item-map items.txt 2>.stderr </dev/null &
     worldy=$!
     until_true shown viewport/picture || { cat .stderr; failures=$((failures + 1)); }
 }
@@ -200,6 +201,12 @@ picture_flight() {
     click "flight/Stop and save"; click "flight/flight 1"; click flight/Replay; sleep 5; click flight/Play; aside
     dock flight
 }
+picture_sources() {
+    world=earth/earth.toml start < <(pose -32.45 -70.5 160000 0 -88; window 1400 1000; only sources 420; echo 'overlay.colour_by = "source"'; echo 'overlay.sources = true')
+    until_true shown "sources/layer ETOPO5"; click "sources/layer Andes at Aconcagua"; settle
+    point viewport/picture 0.5 0.5; sleep 2
+    dock sources
+}
 picture_sweep() {
     start < <(above_india; window 1820 460; only sweep 1000)
     settle; choose sweep/Flight "orbit to ground"; click "sweep/Chunk 17"; choose sweep/Picture "640 x 400"; click sweep/Run
@@ -301,7 +308,7 @@ for name in whole_earth sunset_limb himalaya coast ridge ridged_world andes ande
 done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
-    chunk paging frame bake log true_error cracks pops precision flight sweep"
+    chunk paging frame bake sources log true_error cracks pops precision flight sweep"
 any=no
 for name in $windows; do asked $name && any=yes; done
 [ $any = yes ] || exit $((failures > 0))

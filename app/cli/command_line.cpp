@@ -283,6 +283,10 @@ void addProbe(CLI::App& command, FileCommandOptions& options) {
     command.add_option("LONGITUDE", options.longitudeDeg, "Longitude, degrees east")
         ->required()
         ->check(number(-360, 360));
+    command.add_option(
+        "--source", options.source,
+        "Also print which layer of this source made the height, and what lies under it: a world "
+        "file or any other source");
 }
 
 bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +20,7 @@
 #include "planet/bake/colour_report.h"
 #include "planet/bake/file_report.h"
 #include "planet/format/chunk_file.h"
+#include "planet/source/source_layers.h"
 
 namespace worldy {
 
@@ -197,6 +200,69 @@ Result<planet::ColourVerifyReport> verifyColoursOf(const ChunkFile& file, const 
     return planet::verifyColours(file, source ? &*source : nullptr, [&] { return !watch.interrupted(); });
 }
 
+// Opens the source of the options, which may be the name of a built-in world.
+Result<planet::HeightSource> openNamed(const FileCommandOptions& options) {
+    return sourceNamed(options.source, {}).and_then([&](const NamedSource& named) {
+        return planet::openHeightSource(named.source, options.sourceSettings);
+    });
+}
+
+// What the layers of a source say about a place; nothing if no source was asked for.
+struct SourceProbe {
+    std::shared_ptr<const planet::SourceLayers> source;
+    std::vector<planet::SourceReading> readings;
+};
+
+Result<std::optional<SourceProbe>> probeSource(const FileCommandOptions& options,
+                                               const planet::Geographic& place) {
+    if (options.source.empty()) return std::nullopt;
+    const Result<planet::HeightSource> source = openNamed(options);
+    if (!source) return tl::unexpected(source.error());
+    Result<std::vector<planet::SourceReading>> readings = source->layers->at(place);
+    if (!readings) return tl::unexpected(readings.error());
+    return SourceProbe{source->layers, *std::move(readings)};
+}
+
+constexpr std::array<std::string_view, 5> layerKindNames = {"rasters", "image", "faces", "terrain", "detail"};
+
+Json sourceJson(const FileCommandOptions& options, const SourceProbe& probe) {
+    Json json = {
+        {"source", options.source.string()}, {"fill_m", probe.source->fillM}, {"layers", Json::array()}};
+    for (const planet::SourceReading& reading : probe.readings) {
+        const planet::SourceLayer& layer = probe.source->layers[reading.layer];
+        Json entry = {{"layer", layer.name},
+                      {"kind", layerKindNames[static_cast<std::size_t>(layer.kind)]},
+                      {"join", planet::nameOf(layer.join)},
+                      {"height_m", reading.heightM ? Json(*reading.heightM) : Json(nullptr)},
+                      {"weight", reading.heightM ? Json(reading.weight) : Json(nullptr)},
+                      {"void", reading.isVoid}};
+        if (!reading.file.empty()) {
+            entry["file"] = reading.file.string();
+            entry["column"] = reading.column;
+            entry["row"] = reading.row;
+        }
+        json["layers"].push_back(std::move(entry));
+    }
+    return json;
+}
+
+void printSource(const FileCommandOptions& options, const SourceProbe& probe) {
+    fmt::print("\n{}, the top layer first:\n{:28}{:>14}{:>8}  {}\n", options.source.string(), "layer",
+               "height, m", "weight", "sample: column, row");
+    for (const planet::SourceReading& reading : probe.readings) {
+        const std::string height = reading.heightM  ? fmt::format("{:.3f}", *reading.heightM)
+                                   : reading.isVoid ? "void"
+                                                    : "not here";
+        const std::string sample = reading.file.empty() ? std::string()
+                                                        : fmt::format("{}: {}, {}", reading.file.string(),
+                                                                      reading.column, reading.row);
+        fmt::print("{:28}{:>14}{:>8}  {}\n", probe.source->layers[reading.layer].name, height,
+                   reading.heightM ? fmt::format("{:.3f}", reading.weight) : "", sample);
+    }
+    if (!planet::topmost(probe.readings))
+        fmt::print("No layer has a height here; fill_m is {} m.\n", probe.source->fillM);
+}
+
 Json probeJson(const FileCommandOptions& options, const planet::ProbeReport& report) {
     Json json = {{"file", options.file.string()},
                  {"latitude_deg", options.latitudeDeg},
@@ -259,9 +325,7 @@ Result<bool> runVerify(const FileCommandOptions& options) {
     if (!file) return tl::unexpected(file.error());
     std::optional<planet::HeightSource> source;
     if (!options.source.empty()) {
-        const Result<NamedSource> named = sourceNamed(options.source, {});
-        if (!named) return tl::unexpected(named.error());
-        Result<planet::HeightSource> opened = planet::openHeightSource(named->source, options.sourceSettings);
+        Result<planet::HeightSource> opened = openNamed(options);
         if (!opened) return tl::unexpected(opened.error());
         source = std::move(*opened);
     }
@@ -288,14 +352,20 @@ Result<bool> runVerify(const FileCommandOptions& options) {
 Result<void> runProbe(const FileCommandOptions& options) {
     const Result<ChunkFile> file = ChunkFile::open(options.file);
     if (!file) return tl::unexpected(file.error());
-    const Result<planet::ProbeReport> report = planet::probeFile(
-        *file,
-        {glm::radians(options.latitudeDeg), glm::radians(std::remainder(options.longitudeDeg, 360.0))});
+    const planet::Geographic place{glm::radians(options.latitudeDeg),
+                                   glm::radians(std::remainder(options.longitudeDeg, 360.0))};
+    const Result<planet::ProbeReport> report = planet::probeFile(*file, place);
     if (!report) return tl::unexpected(report.error());
-    if (options.json)
-        fmt::print("{}", jsonText(probeJson(options, *report)));
-    else
+    const Result<std::optional<SourceProbe>> source = probeSource(options, place);
+    if (!source) return tl::unexpected(source.error());
+    if (options.json) {
+        Json json = probeJson(options, *report);
+        if (*source) json["source"] = sourceJson(options, **source);
+        fmt::print("{}", jsonText(json));
+    } else {
         printProbe(options, *report);
+        if (*source) printSource(options, **source);
+    }
     return {};
 }
 

@@ -10,7 +10,8 @@ namespace worldy {
 
 struct FileCommandOptions {
     std::filesystem::path file;
-    std::filesystem::path source;  // verify: also compares with this; empty: checks only the file
+    // verify: also compares with this; probe: also reads its layers; empty: only the file is read.
+    std::filesystem::path source;
     planet::HeightSourceSettings sourceSettings;
     std::filesystem::path colour;  // verify: compares the colours with this; empty: does not
     double latitudeDeg = 0;        // probe

@@ -90,6 +90,10 @@ Result<planet::BakeReport> BakeJob::run(const std::stop_token& stop, const std::
         checkNotInputs(files)
             .and_then([&] { return planet::openHeightSource(source, sourceSettings); })
             .and_then([&](const planet::HeightSource& heights) {
+                {
+                    const std::lock_guard lock(mutex_);
+                    layers_ = heights.layers;
+                }
                 return bakeWithColour(heights, settings, output, onProgress, colour, colourProblem);
             });
     const std::lock_guard lock(mutex_);
@@ -100,6 +104,11 @@ Result<planet::BakeReport> BakeJob::run(const std::stop_token& stop, const std::
 std::string BakeJob::colourProblem() const {
     const std::lock_guard lock(mutex_);
     return colourProblem_;
+}
+
+SharedLayers BakeJob::layers() const {
+    const std::lock_guard lock(mutex_);
+    return layers_;
 }
 
 planet::BakeProgress BakeJob::progress() const {

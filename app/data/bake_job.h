@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/base/job.h"
+#include "app/data/source_jobs.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/bake_estimate.h"
 #include "planet/source/height_source.h"
@@ -43,6 +44,8 @@ public:
     std::optional<planet::Result<planet::BakeReport>> takeResult() { return job_.takeResult(); }
     // Returns why a finished bake lacks the colours that it was asked for; otherwise empty.
     std::string colourProblem() const;
+    // Returns the layers of the source, once it is open; null before that.
+    SharedLayers layers() const;
 
 private:
     planet::Result<planet::BakeReport> run(const std::stop_token& stop, const std::filesystem::path& source,
@@ -53,6 +56,7 @@ private:
     mutable std::mutex mutex_;
     planet::BakeProgress progress_;                // guarded by mutex_
     std::string colourProblem_;                    // guarded by mutex_
+    SharedLayers layers_;                          // guarded by mutex_
     Job<planet::Result<planet::BakeReport>> job_;  // last: it uses the other members
 };
 

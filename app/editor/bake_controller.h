@@ -1,4 +1,5 @@
-// Executes the Bake panel's commands, and owns estimates and previews. The session owns the bake. Main thread.
+// Executes the Bake panel's commands, and owns estimates, previews and what is known of the planet's source. The session
+// owns the bake. Main thread.
 #pragma once
 
 #include <memory>
@@ -11,6 +12,7 @@
 #include "app/data/source_preview.h"
 #include "app/data/worlds.h"
 #include "app/editor/session.h"
+#include "app/editor/source_controller.h"
 #include "ui/model/commands.h"
 #include "ui/panels/bake/bake_panel.h"
 
@@ -32,6 +34,7 @@ struct BakeController {
     BakeEstimator estimator;
     SourcePreviewer preview;
     std::vector<World> worlds = worldy::worlds();
+    SourceController sources;
 };
 
 void execute(BakeController& controller, const ui::BakeCommand& command, Session& session,

@@ -117,8 +117,9 @@ void drawB(CompareController& controller, Viewport& viewport, const ChunkFocus& 
     PictureContent content;
     content.view = viewport.main.view;
     const ErrorMeter& errors = controller.meters[1].errors;
-    const std::vector<planet::gl::ChunkTint> tints = chunkTints(
-        planet, drawn, b.settings.overlay, b.settings.lod.tauPx, errors.last ? &*errors.last : nullptr);
+    const std::vector<planet::gl::ChunkTint> tints =
+        chunkTints(planet, drawn, b.settings.overlay, b.settings.lod.tauPx,
+                   {.measured = errors.last ? &*errors.last : nullptr});
     content.tints = tints;
     content.hiddenLines = linesOver(b.planet.scene, drawn, content.view, b.settings);
     content.frontLines = focusLines(planet.tree(), focus, content.view);

@@ -22,13 +22,15 @@ namespace worldy {
 namespace {
 
 // Creates commands for files dropped onto the window. They are colour images if the Bake panel accepted drops
-// in the last frame, otherwise files to open.
-void takeDrops(const Window& window, ui::BakePanelState& panel, ui::Commands& commands) {
+// in the last frame. Of other files, the user is asked about those that could become a layer of the planet, and the rest
+// are opened.
+void takeDrops(const Window& window, ui::BakePanelState& panel, SourceController& sources,
+               ui::Commands& commands) {
     const bool dropsAreColours = std::exchange(panel.colour.takesDrops, false);
     for (const std::filesystem::path& file : window.droppedFiles()) {
         if (dropsAreColours)
             commands.push_back(ui::ChooseColourImage{file});
-        else
+        else if (!takeDroppedFile(sources, file))
             commands.push_back(ui::OpenFile{file});
     }
 }
@@ -78,13 +80,15 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::collectItems(window_.itemMapFile.empty() ? nullptr : &items);
 
     ui::Commands commands;
-    takeDrops(window, window_.panels.bake, commands);
+    takeDrops(window, window_.panels.bake, bakes_.sources, commands);
     advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
     advanceEstimate(bakes_.estimator);
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
     reloadChangedShaders(session, notices_.log);
+    advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
+                   notices_.log);
     FrameStats stats;
     if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, secondsSinceLast, commands);
 
@@ -191,7 +195,12 @@ void Editor::chooseChunks(Scene& scene, const FrameStep& step) {
 
 void Editor::drawPictures(Scene& scene) {
     const ViewSettings& settings = settings_.settings.view;
-    const PictureInput input{scene, settings, camera_, chunks_.focus};
+    const PictureInput input{scene,
+                             settings,
+                             camera_,
+                             chunks_.focus,
+                             tintDataOf(bakes_.sources),
+                             bakes_.sources.reader.layers.get()};
     drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), notices_.log);
     const bool counting = settings.compare.mode == CompareMode::Difference ||
                           isShown(settings_.settings.workspace, PanelId::Compare);
@@ -219,7 +228,8 @@ ui::EditorView Editor::view(Session& session) {
             .recording = recordingViewOf(recording_, settings),
             .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
             .sweep = sweepViewOf(sweep_),
-            .layers = layersViewOf(layers_, scene, settings.surface.layers)};
+            .layers = layersViewOf(layers_, scene, settings.surface.layers),
+            .sources = sourcesViewOf(bakes_.sources, session)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
@@ -269,6 +279,10 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                 worldy::execute(compare_, c, {session, settings_, view, frames_.stepOnce, replaying()},
                                 notices_);
             },
+            [&](const ui::SourceCommand& c) {
+                worldy::execute(bakes_.sources, c, shownPlanet(session), settings_.settings.workspace,
+                                notices_, next);
+            },
         },
         command.feature());
     for (const ui::Command& one : next) execute(one, window, session);
@@ -285,7 +299,10 @@ void Editor::watchAllocations(const Session& session) {
         .recordedBytes = recording_.recorder ? recording_.recorder->encoded().bytes() : 0,
         .jobs = std::size_t{instruments_.errors.job != nullptr} +
                 std::size_t{compare_.flight.job != nullptr} + std::size_t{sweep_.job != nullptr} +
-                std::size_t{bakes_.estimator.job != nullptr} + std::size_t{bakes_.preview.job != nullptr}};
+                std::size_t{bakes_.estimator.job != nullptr} + std::size_t{bakes_.preview.job != nullptr} +
+                std::size_t{bakes_.sources.reader.job != nullptr} +
+                std::size_t{bakes_.sources.queries.job != nullptr} +
+                std::size_t{bakes_.sources.depths.job != nullptr} + bakes_.sources.reader.ending.size()};
     const bool wanted = isShown(settings_.settings.workspace, PanelId::Frame);
     worldy::watchAllocations(sources, wanted, std::exchange(instruments_.markAllocations, false),
                              instruments_.allocations);

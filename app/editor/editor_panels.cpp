@@ -10,6 +10,7 @@
 #include "ui/kit/widgets.h"
 #include "ui/shell/bake_window.h"
 #include "ui/shell/compare_overlay.h"
+#include "ui/shell/drop_question.h"
 #include "ui/shell/status_bar.h"
 #include "ui/shell/viewport_overlay.h"
 
@@ -100,6 +101,7 @@ void drawPanels(WindowController& window, const PanelContext& context, ui::Comma
     ui::confirmationLine(context.notices.confirmation, context.notices.timeS, middle);
     ui::openDialog(context.openDialog, commands);
     ui::messageBox(context.notices.message, commands);
+    ui::dropQuestion(view.sources, commands);
 }
 
 }  // namespace worldy

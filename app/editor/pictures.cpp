@@ -6,15 +6,23 @@
 #include "app/scene/observer.h"
 #include "app/scene/overlay_colours.h"
 #include "app/scene/overlay_lines.h"
+#include "app/scene/source_lines.h"
 
 namespace worldy {
 
 namespace {
 
 std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Selection& selection,
-                                           const ViewSettings& settings, const ErrorMeter& errors) {
-    return chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
-                      errors.last ? &*errors.last : nullptr);
+                                           const ViewSettings& settings, TintData data,
+                                           const ErrorMeter& errors) {
+    if (errors.last) data.measured = &*errors.last;
+    return chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx, data);
+}
+
+void appendOutlines(const PictureInput& input, PictureContent& content) {
+    if (!input.layers || !input.settings.overlay.sources) return;
+    const planet::Lines lines = sourceLines(*input.layers, input.scene.planet->tree(), content.view);
+    content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());
 }
 
 }  // namespace
@@ -30,10 +38,12 @@ void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsC
     const std::optional<KeptPicture> kept = keptPicture(scene.planet->tree(), instruments.pops);
     if (kept) content.kept = KeptItems{kept->selection.draw, kept->stitched};
     const planet::Selection& shown = kept ? kept->selection : scene.planet->selection();
-    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, instruments.errors);
+    const std::vector<planet::gl::ChunkTint> tints =
+        tintsOf(scene, shown, settings, input.tints, instruments.errors);
     content.tints = tints;
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
     content.frontLines = focusLines(scene.planet->tree(), input.focus, content.view);
+    appendOutlines(input, content);
     drawPicture(viewport, viewport.main, scene, settings, content, log);
 }
 
@@ -46,13 +56,14 @@ void drawObserverPicture(Viewport& viewport, const PictureInput& input, const Er
     content.view = observerView(input.camera, viewport, settings.camera);
     content.selection = observerSelection(scene, viewport, settings.camera);
     const planet::Selection& shown = scene.planet->selection(content.selection);
-    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, errors);
+    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, input.tints, errors);
     content.tints = tints;
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
     content.frontLines =
         observerLines(*scene.planet, input.camera.lodView, settings.camera, input.focus.selected);
     const planet::Lines focus = focusLines(scene.planet->tree(), input.focus, content.view);
     content.frontLines.insert(content.frontLines.end(), focus.begin(), focus.end());
+    appendOutlines(input, content);
     drawPicture(viewport, viewport.observer, scene, settings, content, log);
 }
 

@@ -5,6 +5,8 @@
 #include "app/editor/camera_controller.h"
 #include "app/editor/instruments_controller.h"
 #include "app/editor/viewport.h"
+#include "app/scene/overlay_colours.h"
+#include "planet/source/source_layers.h"
 
 namespace worldy {
 
@@ -13,6 +15,8 @@ struct PictureInput {
     const ViewSettings& settings;
     const CameraController& camera;
     const ChunkFocus& focus;
+    TintData tints;                                // without the measurement
+    const planet::SourceLayers* layers = nullptr;  // of the source; null: not known
 };
 // Draws the main picture, or the frame before or after a pop if the user has requested it. comparing: draws
 // without the fill light, like B.

@@ -172,6 +172,7 @@ void finishBake(Session& session, const ViewSettings& settings, const Log& log) 
     open->baked.colour.clear();
     addColours(open->scene.planet->file().info(), open->data, open->baked);
     open->compressionKnown = true;
+    open->layers = bake.job->layers();
     open->sourceIsThere = planet::heightSourceExists(bake.request.source);
     show(session, std::move(*open), bake.forComparison);
 }

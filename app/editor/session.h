@@ -13,6 +13,7 @@
 #include "app/base/picture.h"
 #include "app/data/bake_job.h"
 #include "app/data/data_set.h"
+#include "app/data/source_jobs.h"
 #include "app/scene/scene.h"
 #include "planet/gl/device/gl_worker.h"
 #include "planet/gl/draw/chunk_programs.h"
@@ -27,6 +28,7 @@ struct OpenPlanet {
     bool compressionKnown = false;  // only for bakes of this session
     bool sourceIsThere = false;     // the source existed when the planet was opened
     Scene scene;
+    SharedLayers layers{};  // of the source; null unless this session baked the planet
 };
 
 // A bake that is running or waiting.

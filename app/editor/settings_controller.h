@@ -5,8 +5,8 @@
 
 #include "app/editor/notices.h"
 #include "app/editor/presets.h"
-#include "app/editor/undo.h"
 #include "app/settings/settings.h"
+#include "app/settings/undo.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -108,7 +109,11 @@ Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, bool 
 // Returns a side without the tint that measures the true error for each picture.
 ComparedSide timedSide(const ComparisonPlan& plan, std::size_t index) {
     ComparedSide side = flownSide(plan, index);
-    if (side.settings.overlay.colourBy == ColourBy::Measured) side.settings.overlay.colourBy = ColourBy::None;
+    // Nothing is measured or read for these tints here.
+    constexpr std::array unknown = {ColourBy::Measured, ColourBy::LeafDepth, ColourBy::Spacing,
+                                    ColourBy::Source};
+    if (std::ranges::find(unknown, side.settings.overlay.colourBy) != unknown.end())
+        side.settings.overlay.colourBy = ColourBy::None;
     return side;
 }
 

@@ -45,6 +45,16 @@ planet::Result<std::optional<ErrorMeasurement>> measuredFor(const planet::Planet
     return measured;
 }
 
+// Reads the index once if chunks are coloured by the leaves under them.
+planet::Result<void> readDepths(Offscreen& offscreen, const ViewSettings& settings) {
+    const ColourBy by = settings.overlay.colourBy;
+    if (offscreen.depths || (by != ColourBy::LeafDepth && by != ColourBy::Spacing)) return {};
+    auto depths = leafDepthsOf(offscreen.scene.planet->file());
+    if (!depths) return tl::unexpected(depths.error());
+    offscreen.depths = *std::move(depths);
+    return {};
+}
+
 }  // namespace
 
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSettings& settings,
@@ -78,10 +88,12 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
     const planet::Selection& selection = scene.planet->selection();
     const auto measured = measuredFor(*scene.planet, settings);
     if (!measured) return tl::unexpected(measured.error());
+    if (planet::Result<void> read = readDepths(offscreen, settings); !read) return read;
+    const TintData data{.measured = *measured ? &**measured : nullptr,
+                        .depths = offscreen.depths ? &*offscreen.depths : nullptr};
     offscreen.target.bind();
     drawScene(scene, view, settings, 0,
-              chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx,
-                         *measured ? &**measured : nullptr));
+              chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx, data));
     const planet::Lines lines = linesOver(scene, selection, view, settings);
     // The lines are made for the sphere, not for the cube.
     if (!lines.empty() && !settings.overlay.cube) {

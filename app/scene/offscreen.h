@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/data/leaf_depths.h"
 #include "app/scene/scene.h"
 #include "app/settings/camera_text.h"
 #include "planet/gl/device/offscreen_context.h"
@@ -19,6 +20,7 @@ struct Offscreen {
     planet::gl::RenderTarget target;
     Scene scene;
     std::optional<planet::gl::DebugLines> lines{};  // created when lines are first drawn
+    std::optional<LeafDepths> depths{};             // read when a tint first needs them
 };
 
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSettings& settings,

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/packing.hpp>
 #include <glm/vec4.hpp>
+#include <numbers>
 
 namespace worldy {
 
@@ -44,15 +45,32 @@ struct TintScale {
     double tauPx;
     double nowS;
     double newestLoad;
-    const ErrorMeasurement* measured;
+    const planet::PlanetShape& shape;
+    const TintData& data;
 };
 
 glm::vec3 measuredColour(const planet::ChunkId& id, const TintScale& scale) {
-    if (!scale.measured) return unmeasuredColour;
-    const auto found = scale.measured->indexOf.find(id);
-    if (found == scale.measured->indexOf.end()) return unmeasuredColour;
-    const double px = scale.measured->report.chunks[found->second].facingPx;
-    return errorColour(px / (scale.measured->tauPx * scale.overlay.errorScale));
+    const ErrorMeasurement* const measured = scale.data.measured;
+    if (!measured) return unmeasuredColour;
+    const auto found = measured->indexOf.find(id);
+    if (found == measured->indexOf.end()) return unmeasuredColour;
+    const double px = measured->report.chunks[found->second].facingPx;
+    return errorColour(px / (measured->tauPx * scale.overlay.errorScale));
+}
+
+glm::vec3 leafColour(const planet::DrawItem& item, const planet::ChunkNode& node, const TintScale& scale) {
+    const bool isLeaf = node.childrenState == planet::ChildrenState::None;
+    if (!scale.data.depths && !isLeaf) return unmeasuredColour;
+    const int level = isLeaf ? item.id.level : deepestLeaf(*scale.data.depths, item.id, false);
+    if (scale.overlay.colourBy == ColourBy::LeafDepth) return levelColour(level);
+    return rampColour(spacingShare(level, planet::leafLevel(scale.shape)));
+}
+
+glm::vec3 sourceColour(const planet::ChunkId& id, const TintScale& scale) {
+    if (!scale.data.tops) return unmeasuredColour;
+    const auto found = scale.data.tops->find(id);
+    if (found == scale.data.tops->end()) return unmeasuredColour;
+    return found->second ? layerColour(*found->second) : noLayerColour;
 }
 
 glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, const TintScale& scale) {
@@ -71,6 +89,11 @@ glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, co
             return rampColour(node.loadOrder / scale.newestLoad);
         case ColourBy::Measured:
             return measuredColour(item.id, scale);
+        case ColourBy::LeafDepth:
+        case ColourBy::Spacing:
+            return leafColour(item, node, scale);
+        case ColourBy::Source:
+            return sourceColour(item.id, scale);
         case ColourBy::None:
             break;
     }
@@ -123,13 +146,26 @@ double ageShare(double ageS, double topS) {
     return std::clamp(1 - ageS / topS, 0.0, 1.0);
 }
 
+double spacingShare(int leafLevel, int deepestLevel) {
+    return deepestLevel > 0 ? static_cast<double>(leafLevel) / deepestLevel : 1;
+}
+
+double leafSpacingM(const planet::PlanetShape& shape, double level) {
+    return std::numbers::pi / 2 * shape.radiusM / (planet::chunkCells(shape) * std::exp2(level));
+}
+
+glm::vec3 layerColour(std::size_t layer) {
+    return levelColour(static_cast<int>(layer));
+}
+
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
                                               const OverlaySettings& overlay, double tauPx,
-                                              const ErrorMeasurement* measured) {
+                                              const TintData& data) {
     if (overlay.colourBy == ColourBy::None) return {};
     const planet::ChunkTree& tree = planet.tree();
-    const TintScale scale{overlay, tauPx, planet.lastStep().nowS, newestLoad(tree, selection), measured};
+    const TintScale scale{overlay,    tauPx, planet.lastStep().nowS, newestLoad(tree, selection),
+                          tree.shape, data};
     const auto strength = static_cast<std::uint8_t>(std::lround(std::clamp(overlay.opacity, 0.0, 1.0) * 255));
     std::vector<planet::gl::ChunkTint> tints;
     tints.reserve(selection.draw.size());

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <unordered_map>
 #include <vector>
 
+#include "app/data/leaf_depths.h"
 #include "app/scene/error_measurement.h"
 #include "app/settings/view_settings.h"
 #include "planet/chunk_explanation.h"
@@ -26,14 +30,30 @@ glm::vec3 stateColour(planet::ChunkState state);
 
 // Return the position of a value on its scale, [0, 1].
 inline constexpr double deltaDecades = 4;
-double deltaShare(double deltaCM, double topM);  // logarithmic over the four decades below the top
-double ageShare(double ageS, double topS);       // 1: just loaded, 0: topS or older
+double deltaShare(double deltaCM, double topM);        // logarithmic over the four decades below the top
+double ageShare(double ageS, double topS);             // 1: just loaded, 0: topS or older
+double spacingShare(int leafLevel, int deepestLevel);  // 1: the finest samples of the planet; logarithmic
+// Returns the mean distance in metres between the samples of the leaves of a level, which may be a fraction.
+double leafSpacingM(const planet::PlanetShape& shape, double level);
 
-// Returns the tints of the drawn chunks of a selection, in its order; none if chunks are not coloured.
-// measured is for ColourBy::Measured; chunks without a measurement are grey.
+glm::vec3 layerColour(std::size_t layer);     // of the source; neighbours differ in hue
+inline const glm::vec3 noLayerColour(0.25f);  // for chunks in whose middle no layer has a height
+
+// The topmost layer with a height in the middle of chunks; nothing where no layer has one.
+using SourceTops = std::unordered_map<planet::ChunkId, std::optional<std::size_t>>;
+
+// What some tints need to know; null: not known, so the chunks are grey.
+struct TintData {
+    const ErrorMeasurement* measured = nullptr;  // for ColourBy::Measured
+    const LeafDepths* depths = nullptr;          // for ColourBy::LeafDepth and Spacing
+    const SourceTops* tops = nullptr;            // for ColourBy::Source
+};
+
+// Returns the tints of the drawn chunks of a selection, in its order; none if chunks are not coloured. Chunks of which
+// the data says nothing are grey.
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
                                               const OverlaySettings& overlay, double tauPx,
-                                              const ErrorMeasurement* measured = nullptr);
+                                              const TintData& data = {});
 
 }  // namespace worldy

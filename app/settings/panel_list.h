@@ -27,7 +27,8 @@ enum class PanelId : std::uint8_t {
     Flight,
     Compare,
     Sweep,
-    Light
+    Light,
+    Sources
 };
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
@@ -62,6 +63,7 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::Compare, "Compare", "compare", "Ctrl+Shift+6", Dock::Left, false},
     {PanelId::Sweep, "Sweep", "sweep", "Ctrl+Shift+7", Dock::Bottom, false},
     {PanelId::Light, "Light", "light", "Ctrl+Shift+8", Dock::Right, true},
+    {PanelId::Sources, "Sources", "sources", "Ctrl+Shift+9", Dock::Left, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

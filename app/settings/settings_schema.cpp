@@ -169,8 +169,9 @@ void addPaging(Fields& fields, PagingOptions& paging) {
           Seed{&disk.seed}}});
 }
 
-constexpr std::array<std::string_view, 8> colourByLabels = {"none",  "level", "ε / τ",      "δc",
-                                                            "morph", "age",   "load order", "measured"};
+constexpr std::array<std::string_view, 11> colourByLabels = {
+    "none",     "level",      "ε / τ",          "δc",    "morph", "age", "load order",
+    "measured", "leaf depth", "sample spacing", "source"};
 constexpr std::array<std::string_view, 3> skirtPaintLabels = {"as ground", "highlighted", "only skirts"};
 constexpr std::array<std::string_view, 4> chunkLabelsLabels = {"none", "level", "ε", "level and ε"};
 
@@ -180,7 +181,9 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
         {{"overlay", "colour_by", "Colour by",
           "Quantity that tints the chunks in the viewport. ε / τ is the screen-space error relative to the "
           "tolerance, δc the geometric error in metres, age the time since loading, and measured the last "
-          "measured error (True error panel) relative to the tolerance. F8 cycles through them.",
+          "measured error (True error panel) relative to the tolerance. Leaf depth is the level of the "
+          "deepest leaf under a chunk, sample spacing the distance of the samples there, and source the "
+          "topmost layer of the source that has a height in the middle of the chunk. F8 cycles through them.",
           Choice{asByte(overlay.colourBy), colourByNames, colourByLabels}},
          {"overlay", "opacity", "Opacity",
           "Opacity of the tint. Smaller: more of the ground shows, but colours are harder to tell apart. At "
@@ -223,7 +226,11 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "Tints each clipmap level by its colour, if streamed colours use the clipmap (Surface panel). "
           "Texels filled in the last two seconds are magenta if the window moved, cyan if tiles were loaded "
           "or evicted. Freeze LOD or use an observer to see it from outside.",
-          Flag{&overlay.clipmap}}});
+          Flag{&overlay.clipmap}},
+         {"overlay", "sources", "Source outlines",
+          "Draws what each layer of the source covers, on the planet and on the net of the Quadtree panel, "
+          "in the layer's colour of the Sources panel. A layer that covers the planet has no outline.",
+          Flag{&overlay.sources}}});
 }
 
 constexpr std::array<std::string_view, 2> surfaceLabels = {"image", "height ramp"};

@@ -35,7 +35,19 @@ struct PagingOptions {
 // How streamed colours are sampled.
 enum class ColourMode : std::uint8_t { Tiles, Clipmap };
 
-enum class ColourBy : std::uint8_t { None, Level, Error, DeltaC, Morph, Age, LoadOrder, Measured };
+enum class ColourBy : std::uint8_t {
+    None,
+    Level,
+    Error,
+    DeltaC,
+    Morph,
+    Age,
+    LoadOrder,
+    Measured,
+    LeafDepth,
+    Spacing,
+    Source
+};
 enum class ChunkLabels : std::uint8_t { None, Level, Error, LevelAndError };
 
 // Markings drawn over the planet.
@@ -53,6 +65,7 @@ struct OverlaySettings {
     ChunkLabels labels = ChunkLabels::None;
     bool cube = false;
     bool clipmap = false;
+    bool sources = false;  // outlines of the layers of the source
 
     bool operator==(const OverlaySettings&) const = default;
 };

@@ -11,6 +11,7 @@
 
 #include "planet/base/try.h"
 #include "planet/raster/gdal_formats.h"
+#include "planet/raster/gdal_raster.h"
 #include "planet/raster/image_placement.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/source_parts.h"
@@ -96,6 +97,10 @@ bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourCh
     if (!image) return false;
     const ImageLayout& layout = (*image)->layout();
     return placementOf(path.string(), layout.width, layout.height, layout.geoTags).has_value();
+}
+
+bool isGeoreferenced(const std::filesystem::path& file) {
+    return isGdalRaster(file) && GdalRaster::open(file, {}).has_value();
 }
 
 namespace {

@@ -42,6 +42,9 @@ bool heightSourceExists(const std::filesystem::path& path);
 // this file describes it.
 bool isWorldFile(const std::filesystem::path& path);
 
+// Returns whether a file is a raster with a coordinate reference system and a position, by its header.
+bool isGeoreferenced(const std::filesystem::path& file);
+
 // Opens a world file, a terrain text ("noise:ridged,seed=7", terrain.h), an elevation image, georeferenced rasters by a
 // pattern or list ("tiles/*.tif|more.hgt", in quotes in a shell), or six cube faces. For faces,
 // the path is one of the files (earth4097_z_pos.raw) or their common stem (earth4097), with the extension

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/source/layer_readings.h"
 #include "planet/source/source_parts.h"
 #include "planet/source/terrain_sources.h"
 
@@ -184,6 +185,25 @@ Result<void> sampleTile(const Detail& detail, const SampleTile& tile, std::span<
     return {};
 }
 
+// Returns the layers under the detail, with the detail on top.
+std::shared_ptr<const SourceLayers> withDetail(const SourceLayers& below, const HeightSource& refined) {
+    auto layers = std::make_shared<SourceLayers>(below);
+    SourceLayer detail = wholeLayer(refined, LayerKind::Detail, 0);
+    detail.name = "detail";
+    detail.sampleCount = detail.missingCount = 0;
+    layers->layers.push_back(std::move(detail));
+    layers->at = [under = below.at, sample = refined.sample, size = refined.naturalFaceSize,
+                  layer = layers->layers.size() -
+                          1](const Geographic& place) -> Result<std::vector<SourceReading>> {
+        TRY_ASSIGN(auto readings, under(place));
+        TRY_ASSIGN(auto top, readGridPoint(sample, size, place));
+        top.layer = layer;
+        readings.insert(readings.begin(), std::move(top));
+        return readings;
+    };
+    return layers;
+}
+
 }  // namespace
 
 Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail) {
@@ -230,11 +250,13 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
             return cells < finest ? cells : refined;
         };
     }
+    const std::shared_ptr<const SourceLayers> below = source.layers;
     shared->source = std::move(source);
     result.sample = [shared = std::shared_ptr<const Detail>(shared)](const SampleTile& tile,
                                                                      std::span<float> out) {
         return sampleTile(*shared, tile, out);
     };
+    if (below) result.layers = withDetail(*below, result);
     return result;
 }
 

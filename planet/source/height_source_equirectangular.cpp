@@ -20,6 +20,7 @@
 #include "planet/source/height_filter.h"
 #include "planet/source/height_geographic.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/layer_readings.h"
 #include "planet/source/sample_tiles.h"
 
 namespace planet {
@@ -330,6 +331,24 @@ Result<void> sampleTile(const Equirectangular& source, const SampleTile& tile, s
     });
 }
 
+// Reads the sample nearest to a place.
+Result<SourceReading> nearestSample(const HeightRaster& image, const ImagePlacement& placement,
+                                    const std::filesystem::path& path, const Geographic& place) {
+    const Projection projection(placement, image.height(), 1);
+    const double column = placement.zeroColumn + place.longitudeRad * projection.columnsPerRad;
+    const double row = image.height() / 2.0 - 0.5 - place.latitudeRad * projection.rowsPerRad;
+    const int x = wrapped(static_cast<int>(std::lround(column)), placement.period);
+    const int y = std::clamp(static_cast<int>(std::lround(row)), 0, image.height() - 1);
+    float height = 0;
+    TRY(image.read({x, y, 1, 1}, &height, 1));
+    SourceReading reading;
+    reading.heightM = static_cast<double>(height);
+    reading.file = path;
+    reading.column = x;
+    reading.row = y;
+    return reading;
+}
+
 }  // namespace
 
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
@@ -352,6 +371,13 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     describeHeights(source, conversion, statistics);
     source.densities = {rowsToPole(placement, layout.height) / std::numbers::pi,
                         placement.period / (2 * std::numbers::pi)};
+    if (!settings.colourChannel) {
+        source.layers =
+            singleLayer(wholeLayer(source, LayerKind::Image, 2 * std::numbers::pi / placement.period),
+                        [image, placement, path](const Geographic& place) {
+                            return nearestSample(image, placement, path, place);
+                        });
+    }
     source.sample = [shared = Equirectangular{image, placement, statistics.minM, statistics.maxM}](
                         const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);

@@ -22,6 +22,7 @@
 #include "planet/source/height_face_edges.h"
 #include "planet/source/height_filter.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/layer_readings.h"
 #include "planet/source/sample_tiles.h"
 #include "planet/sphere/face_fold.h"
 #include "planet/sphere/planet_shape.h"
@@ -417,6 +418,26 @@ double roundingOf(const FaceFormat& format, const HeightSource& source) {
     return largestM * (format.typeName == "half" ? 1e-3 : 1e-5);
 }
 
+// Reads the sample nearest to a place.
+Result<SourceReading> nearestSample(const FaceSet& set,
+                                    const std::array<std::filesystem::path, faceCount>& paths,
+                                    const Geographic& place) {
+    const FacePoint point = facePointFromDirection(directionFromGeographic(place));
+    const int last = set.size - 1;
+    const auto nearest = [&](double along) {
+        return std::clamp(static_cast<int>(std::lround((along + 1) / 2 * last)), 0, last);
+    };
+    SourceReading reading;
+    reading.file = paths[static_cast<std::size_t>(point.face)];
+    reading.column = nearest(point.u);
+    reading.row = last - nearest(point.v);
+    float height = 0;
+    TRY(set[point.face].read({static_cast<int>(reading.column), static_cast<int>(reading.row), 1, 1}, &height,
+                             1));
+    reading.heightM = static_cast<double>(height);
+    return reading;
+}
+
 Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& format,
                                    const HeightConversion& conversion, FaceSet set, FaceEdges edges) {
     HeightStatistics statistics;
@@ -442,6 +463,11 @@ Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& for
         TRY_ASSIGN(auto seams, findColourSeams(set.faces, lines, files.stem));
         source.seamEdges = seams.edges;
         source.notice = std::move(seams.notice);
+    }
+    if (edges == FaceEdges::MustAgree) {
+        source.layers = singleLayer(
+            wholeLayer(source, LayerKind::Faces, std::numbers::pi / 2 / (format.size - 1)),
+            [set, paths = files.paths](const Geographic& place) { return nearestSample(set, paths, place); });
     }
     source.sample = [shared = std::move(set)](const SampleTile& tile, std::span<float> out) {
         return sampleTile(shared, tile, out);

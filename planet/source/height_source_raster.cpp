@@ -16,6 +16,7 @@
 #include "planet/base/try.h"
 #include "planet/raster/gdal_raster.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/layer_readings.h"
 #include "planet/source/raster_parts.h"
 #include "planet/source/raster_sampling.h"
 #include "planet/source/sample_tiles.h"
@@ -49,17 +50,23 @@ Result<void> samplePiece(const Rasters& rasters, const SampleTile& piece, float*
 }
 
 std::string describe(const std::filesystem::path& path, const std::vector<RasterArea>& areas) {
-    const RasterLayout& first = areas[0].mosaic.tiles()[0].raster->layout();
     // A list of files is named after the first one.
     const std::string text = path.string();
-    const std::string name = std::filesystem::path(text.substr(0, text.find('|'))).filename().string();
-    std::size_t rasters = 0;
-    for (const RasterArea& area : areas) rasters += area.mosaic.tiles().size();
-    if (rasters == 1)
-        return fmt::format("{}, {} x {} {}, {}", name, first.width, first.height, first.typeName,
-                           first.crsName);
-    return fmt::format("{}, {} rasters on {} grid{}, {}", name, rasters, areas.size(),
-                       areas.size() == 1 ? "" : "s", first.crsName);
+    return aboutRasters(std::filesystem::path(text.substr(0, text.find('|'))).filename().string(), areas);
+}
+
+// Returns the reading of the finest raster that has a height at a place, or else of the finest one that lies there.
+Result<SourceReading> readingOf(const Rasters& rasters, const Geographic& place) {
+    SourceReading reading;
+    const PiecePlaces places = placesOf(place);
+    for (const RasterArea& area : rasters.areas) {
+        const PlacesOnGrid onGrid = placesOnGrid(area, places);
+        if (onGrid.index.empty()) continue;
+        TRY_ASSIGN(auto sample, readSample(area, onGrid));
+        if (!sample.isVoid) return sample;
+        if (reading.file.empty()) reading = std::move(sample);
+    }
+    return reading;
 }
 
 struct BrokenFile {
@@ -202,6 +209,8 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
     source.naturalFaceSize = faceCells + 1;
     source.missingCount = statistics.missingCount;
     const auto fillM = static_cast<float>(settings.fillM);
+    SourceLayer layer = rasterLayer(source.description.substr(0, source.description.find(", ")), areas);
+    layer.skipped = source.skipped;
     const auto shared = std::make_shared<const Rasters>(
         Rasters{std::move(areas), std::min(statistics.minM, fillM), std::max(statistics.maxM, fillM), fillM});
     source.minM = static_cast<double>(shared->minM);
@@ -214,6 +223,10 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         }
         return parts;
     };
+    auto layers = std::make_shared<SourceLayers>(*singleLayer(
+        std::move(layer), [shared](const Geographic& place) { return readingOf(*shared, place); }));
+    layers->fillM = settings.fillM;
+    source.layers = std::move(layers);
     source.finestCells = [shared](const ChunkId& square) {
         int cells = 1;
         for (const RasterArea& area : shared->areas) cells = std::max(cells, finestCellsIn(area, square));

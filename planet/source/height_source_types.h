@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct SourceReads {
     std::uint64_t read = 0;     // decoded, a sample as often as it was
 };
 
+struct SourceLayers;
+
 // Copies share the open files. Several threads may call sample at once.
 struct HeightSource {
     std::string description;  // "elevation.tif, 4320 x 2160 int16, equirectangular"
@@ -60,6 +63,8 @@ struct HeightSource {
     std::string notice{};
     // A message for each file that was left out because of HeightSourceSettings::skipBroken.
     std::vector<std::string> skipped{};
+    // What the source consists of, and which layer made the height of a place (source_layers.h). Null for colours.
+    std::shared_ptr<const SourceLayers> layers{};
 
     // Returns how often the files of georeferenced rasters were read so far. Null: it is not counted. Several
     // threads may call it at once.

@@ -1,5 +1,7 @@
 #include "planet/source/terrain_sources.h"
+
 #include "planet/base/try.h"
+#include "planet/source/layer_readings.h"
 
 namespace planet {
 
@@ -47,7 +49,12 @@ Result<HeightSource> makeTerrain(const TerrainSettings& settings) {
             return badInput("detail is added to a source; expected detail:of=PATH");
         }
     };
-    return std::visit(Make{}, settings);
+    Result<HeightSource> source = std::visit(Make{}, settings);
+    if (!source) return source;
+    source->layers = singleLayer(wholeLayer(*source, LayerKind::Terrain, 0),
+                                 [sample = source->sample, size = source->naturalFaceSize](
+                                     const Geographic& place) { return readGridPoint(sample, size, place); });
+    return source;
 }
 
 }  // namespace planet

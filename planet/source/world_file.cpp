@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -283,10 +284,7 @@ Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node
         TRY(known->read(file, value, layer));
     }
     TRY(checkLayer(place, layer, isFirst));
-    if (layer.name.empty()) {
-        const std::string& text = layer.terrain.empty() ? layer.detail : layer.terrain;
-        layer.name = layer.files.empty() ? text : layer.files[0].filename().string();
-    }
+    if (layer.name.empty()) layer.name = defaultNameOf(layer);
     return layer;
 }
 
@@ -308,10 +306,7 @@ Result<std::vector<WorldLayer>> readLayers(const std::filesystem::path& file, co
     return layers;
 }
 
-}  // namespace
-
-Result<WorldFile> readWorldFile(const std::filesystem::path& path) {
-    TRY_ASSIGN(const auto table, parseTomlFile(path));
+Result<WorldFile> worldFromTable(const toml::table& table, const std::filesystem::path& path) {
     WorldFile world;
     for (const auto& [key, value] : table) {
         if (key.str() == "fill_m") {
@@ -336,6 +331,105 @@ Result<WorldFile> readWorldFile(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < world.layers.size(); ++i)
         TRY(checkDatum(placeOf(path, *table["elevation"].as_array()->get(i)), world.layers[i], world.datum));
     return world;
+}
+
+// Returns a path as a world file in a folder names it. The parts of a list are separate paths.
+std::string relativeTo(const std::filesystem::path& folder, const std::filesystem::path& path) {
+    std::string text;
+    std::istringstream parts(path.string());
+    for (std::string part; std::getline(parts, part, '|');) {
+        const std::filesystem::path whole = std::filesystem::absolute(part).lexically_normal();
+        const std::filesystem::path near =
+            whole.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+        text += fmt::format("{}{}", text.empty() ? "" : "|", near.empty() ? whole.string() : near.string());
+    }
+    return text;
+}
+
+void insertFiles(const WorldLayer& layer, const std::filesystem::path& folder, toml::table& table) {
+    if (layer.files.size() == 1) {
+        table.insert("files", relativeTo(folder, layer.files[0]));
+        return;
+    }
+    toml::array files;
+    for (const std::filesystem::path& file : layer.files) files.push_back(relativeTo(folder, file));
+    table.insert("files", std::move(files));
+}
+
+void insertVoids(const WorldLayer& layer, toml::table& table) {
+    if (layer.voids == LayerVoids::Fill) table.insert("voids", "fill");
+    if (layer.voids == LayerVoids::Height) table.insert("voids", layer.voidM);
+}
+
+void insertPlace(const ImagePlace& place, toml::table& table) {
+    toml::table inlined;
+    for (const PlaceKey& key : placeKeys) {
+        if (key.isNeeded || place.*key.value != 0) inlined.insert(key.name, place.*key.value);
+    }
+    inlined.is_inline(true);
+    table.insert("place", std::move(inlined));
+}
+
+toml::table tableOf(const WorldLayer& layer, const std::filesystem::path& folder) {
+    const WorldLayer plain;
+    constexpr std::string_view kind = "detail:";
+    toml::table table;
+    if (layer.name != defaultNameOf(layer)) table.insert("name", layer.name);
+    if (!layer.files.empty()) insertFiles(layer, folder, table);
+    if (!layer.terrain.empty()) table.insert("terrain", layer.terrain);
+    if (!layer.detail.empty()) table.insert("detail", layer.detail.substr(kind.size()));
+    if (layer.join != plain.join) table.insert("join", nameOf(layer.join));
+    insertVoids(layer, table);
+    if (layer.featherM != plain.featherM) table.insert("feather_m", layer.featherM);
+    if (layer.scale != plain.scale) table.insert("scale", layer.scale);
+    if (layer.hasOffset || layer.offsetM != plain.offsetM) table.insert("offset_m", layer.offsetM);
+    if (layer.datum) table.insert("datum", nameOf(*layer.datum));
+    if (layer.place) insertPlace(*layer.place, table);
+    if (layer.rawSize) table.insert("raw_size", *layer.rawSize);
+    if (layer.rawBigEndian) table.insert("raw_big_endian", true);
+    if (layer.rawSigned) table.insert("raw_signed", true);
+    return table;
+}
+
+}  // namespace
+
+Result<WorldFile> readWorldFile(const std::filesystem::path& path) {
+    TRY_ASSIGN(const auto table, parseTomlFile(path));
+    return worldFromTable(table, path);
+}
+
+Result<WorldFile> worldFromText(std::string_view text, const std::filesystem::path& path) {
+    TRY_ASSIGN(const auto table, parseTomlText(text, path));
+    return worldFromTable(table, path);
+}
+
+std::string worldText(const WorldFile& world, const std::filesystem::path& folder) {
+    const WorldFile plain;
+    toml::table table;
+    if (world.radiusM != plain.radiusM) table.insert("radius_m", world.radiusM);
+    if (world.fillM != plain.fillM) table.insert("fill_m", world.fillM);
+    if (world.datum) table.insert("datum", nameOf(*world.datum));
+    const auto insertLayers = [&](const LayerKind& kind, const std::vector<WorldLayer>& layers) {
+        if (layers.empty()) return;
+        toml::array tables;
+        for (const WorldLayer& layer : layers) tables.push_back(tableOf(layer, folder));
+        table.insert(kind.table, std::move(tables));
+    };
+    insertLayers(elevationKind, world.layers);
+    insertLayers(colourKind, world.colours);
+    std::ostringstream text;
+    text << toml::toml_formatter(table) << '\n';
+    return text.str();
+}
+
+std::string defaultNameOf(const WorldLayer& layer) {
+    if (!layer.files.empty()) return layer.files[0].filename().string();
+    return layer.terrain.empty() ? layer.detail : layer.terrain;
+}
+
+std::string_view nameOf(LayerJoin join) {
+    constexpr std::array<std::string_view, 3> names = {"replace", "max", "add"};
+    return names[static_cast<std::size_t>(join)];
 }
 
 Result<std::vector<std::filesystem::path>> filesOfLayer(const WorldLayer& layer) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planet/base/result.h"
@@ -62,6 +63,18 @@ struct WorldFile {
 
 // Reads a world file. The Error names the file, the line, the key and the expected value.
 Result<WorldFile> readWorldFile(const std::filesystem::path& path);
+
+// Reads the text of a world file as if it lay at a path, from whose folder its relative paths count.
+Result<WorldFile> worldFromText(std::string_view text, const std::filesystem::path& path);
+
+// Returns the text of a world file that lies in a folder. It names files relative to the folder where that is possible.
+// Keys with their defaults are left out.
+std::string worldText(const WorldFile& world, const std::filesystem::path& folder);
+
+// Returns the name of a layer that has none of its own: its first file, its terrain or its detail.
+std::string defaultNameOf(const WorldLayer& layer);
+
+std::string_view nameOf(LayerJoin join);  // as in the file: "replace", "max", "add"
 
 // Returns the files that a layer's paths and patterns name, in their order. The Error names a pattern without
 // files, or a file that does not exist.

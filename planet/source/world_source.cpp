@@ -17,6 +17,7 @@
 #include "planet/raster/rim_distance.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
+#include "planet/source/layer_readings.h"
 #include "planet/source/raster_parts.h"
 #include "planet/source/raster_sampling.h"
 #include "planet/source/sample_tiles.h"
@@ -45,6 +46,7 @@ struct WorldPart {
     std::optional<DatumShift> shift;  // of the layer's heights to the planet's datum
     std::uint64_t settings = 0;       // a hash of everything but the content that its heights depend on
     std::variant<std::unique_ptr<RasterPart>, HeightSource> content;
+    std::size_t number = 0;  // of the layer in the world file
 };
 
 struct World {
@@ -54,9 +56,13 @@ struct World {
     double maxM = 0;
 };
 
+double convertedM(const WorldLayer& layer, double heightM, double shiftM) {
+    return layer.offsetM + layer.scale * heightM + shiftM;
+}
+
 float joined(const WorldLayer& layer, float belowM, float heightM, double shiftM, double weight) {
     const double below = static_cast<double>(belowM);
-    const double height = layer.offsetM + layer.scale * static_cast<double>(heightM) + shiftM;
+    const double height = convertedM(layer, static_cast<double>(heightM), shiftM);
     switch (layer.join) {
         case LayerJoin::Replace:
             return static_cast<float>(below + weight * (height - below));
@@ -87,6 +93,14 @@ std::vector<double> shiftsAt(const WorldPart& part, const PiecePlaces& places) {
     return shifts;
 }
 
+Result<void> checkShift(const WorldLayer& layer, double shiftM, const Geographic& place) {
+    if (std::isfinite(shiftM)) return {};
+    return badInput(fmt::format(
+        "layer \"{}\": PROJ's grid of its datum or of the planet's has no value at {:.4f} N, {:.4f} E; "
+        "expected a grid of the whole planet, or offset_m in the layer instead of the grid",
+        layer.name, place.latitudeRad * degPerRad, place.longitudeRad * degPerRad));
+}
+
 // Joins the heights of a layer, of which those that are NaN leave what lies under them. weight(i) is the share of the
 // height at place i.
 template <class Weight>
@@ -96,13 +110,7 @@ Result<void> joinHeights(const WorldPart& part, const PiecePlaces& places, std::
     for (std::size_t i = 0; i < heights.size(); ++i) {
         if (std::isnan(heights[i])) continue;
         const double shiftM = shifts.empty() ? 0 : shifts[i];
-        if (!std::isfinite(shiftM)) {
-            return badInput(fmt::format(
-                "layer \"{}\": PROJ's grid of its datum or of the planet's has no value at {:.4f} N, {:.4f} "
-                "E; "
-                "expected a grid of the whole planet, or offset_m in the layer instead of the grid",
-                part.layer.name, places.latitudeRad[i] * degPerRad, places.longitudeRad[i] * degPerRad));
-        }
+        TRY(checkShift(part.layer, shiftM, {places.latitudeRad[i], places.longitudeRad[i]}));
         worldM[i] = joined(part.layer, worldM[i], heights[i], shiftM, weight(i));
     }
     return {};
@@ -148,6 +156,68 @@ Result<void> samplePiece(const World& world, const SampleTile& piece, float* out
         out[i / columns * stride + i % columns] =
             std::clamp(heights[i], static_cast<float>(world.minM), static_cast<float>(world.maxM));
     return {};
+}
+
+// Applies a layer's scale, offset and datum to a reading.
+Result<void> convertReading(const WorldPart& part, const PiecePlaces& places, SourceReading& reading) {
+    reading.layer = part.number;
+    if (!reading.heightM) return {};
+    const std::vector<double> shifts = shiftsAt(part, places);
+    const double shiftM = shifts.empty() ? 0 : shifts[0];
+    TRY(checkShift(part.layer, shiftM, {places.latitudeRad[0], places.longitudeRad[0]}));
+    reading.heightM = convertedM(part.layer, *reading.heightM, shiftM);
+    return {};
+}
+
+Result<SourceReading> readingOf(const WorldPart& part, const RasterPart& rasters, const PiecePlaces& places) {
+    const PlacesOnGrid onGrid = placesOnGrid(rasters.area, places);
+    if (onGrid.index.empty()) return SourceReading{.layer = part.number, .heightM = {}};
+    TRY_ASSIGN(auto reading, readSample(rasters.area, onGrid));
+    if (reading.isVoid) {
+        float heightM = std::numeric_limits<float>::quiet_NaN();
+        TRY(treatVoids(part.layer, rasters.area, onGrid, std::span(&heightM, 1)));
+        if (!std::isnan(heightM)) reading.heightM = static_cast<double>(heightM);
+    }
+    if (rasters.rim && reading.heightM) {
+        double distanceRad = 0;
+        TRY(rasters.rim->at(onGrid.column, onGrid.row, std::span(&distanceRad, 1)));
+        reading.weight = smoothly(0, rasters.rim->reachRad(), distanceRad);
+    }
+    TRY(convertReading(part, places, reading));
+    return reading;
+}
+
+// Appends the readings of a part: of the layer, or of all layers that its detail refines.
+Result<void> appendReadings(const WorldPart& part, const Geographic& place,
+                            std::vector<SourceReading>& readings) {
+    const PiecePlaces places = placesOf(place);
+    if (const auto* const rasters = std::get_if<std::unique_ptr<RasterPart>>(&part.content)) {
+        TRY_ASSIGN(auto reading, readingOf(part, **rasters, places));
+        // Of the rasters of a layer, the first one with a height counts, or else the first one that lies there.
+        const bool isSame = !readings.empty() && readings.back().layer == part.number;
+        if (!isSame) {
+            readings.push_back(std::move(reading));
+        } else if (!readings.back().heightM && (reading.heightM || readings.back().file.empty())) {
+            readings.back() = std::move(reading);
+        }
+        return {};
+    }
+    TRY_ASSIGN(auto found, std::get<HeightSource>(part.content).layers->at(place));
+    if (part.layer.detail.empty()) {
+        // A file or terrain: its topmost height, with its own layers as one.
+        const SourceReading* const top = topmost(found);
+        SourceReading reading = top ? *top : found.front();
+        TRY(convertReading(part, places, reading));
+        found.assign(1, std::move(reading));
+    }
+    std::ranges::move(found, std::back_inserter(readings));
+    return {};
+}
+
+Result<std::vector<SourceReading>> readingsOf(const World& world, const Geographic& place) {
+    std::vector<SourceReading> readings;
+    for (std::size_t i = world.parts.size(); i-- > 0;) TRY(appendReadings(world.parts[i], place, readings));
+    return readings;
 }
 
 // Returns the cells along a face that lose no samples of a source under a square.
@@ -250,6 +320,7 @@ public:
         : settings_(settings),
           cache_(std::make_shared<MosaicCache>(settings.cacheBytes)),
           radiusM_(file.radiusM),
+          fillM_(file.fillM),
           datum_(file.datum),
           world_(std::make_unique<World>()) {
         // Where no layer has a colour, it is black.
@@ -260,15 +331,13 @@ public:
 
     Result<void> add(const WorldLayer& layer) {
         TRY(setShift(layer));
-        if (!layer.detail.empty()) return addDetail(layer);
-        if (!layer.terrain.empty()) return addWhole(layer, layer.terrain);
-        TRY_ASSIGN(const auto files, filesOfLayer(layer));
-        if (layer.place) return addPlaced(layer, files[0]);
-        // An image of the whole planet or six faces; anything else is georeferenced.
-        if (layer.files.size() == 1 && files == layer.files &&
-            coversPlanet(files[0], settings_.colourChannel))
-            return addWhole(layer, files[0]);
-        return addRasters(layer, files);
+        const std::size_t skipped = skipped_.size();
+        TRY(addContent(layer));
+        SourceLayer& description = layers_.back();
+        description.name = layer.name;
+        description.join = layer.join;
+        description.skipped.assign(skipped_.begin() + static_cast<std::ptrdiff_t>(skipped), skipped_.end());
+        return {};
     }
 
     HeightSource finish(std::string description) {
@@ -290,10 +359,25 @@ public:
                                       return samplePiece(*world, piece, to, stride);
                                   });
         };
+        if (settings_.colourChannel) return source;
+        source.layers = std::make_shared<const SourceLayers>(SourceLayers{
+            layers_, fillM_, [world](const Geographic& place) { return readingsOf(*world, place); }});
         return source;
     }
 
 private:
+    Result<void> addContent(const WorldLayer& layer) {
+        if (!layer.detail.empty()) return addDetail(layer);
+        if (!layer.terrain.empty()) return addWhole(layer, layer.terrain);
+        TRY_ASSIGN(const auto files, filesOfLayer(layer));
+        if (layer.place) return addPlaced(layer, files[0]);
+        // An image of the whole planet or six faces; anything else is georeferenced.
+        if (layer.files.size() == 1 && files == layer.files &&
+            coversPlanet(files[0], settings_.colourChannel))
+            return addWhole(layer, files[0]);
+        return addRasters(layer, files);
+    }
+
     // offset_m takes the place of the grids, whether or not they exist: the same world file gives the same heights
     // everywhere.
     Result<void> setShift(const WorldLayer& layer) {
@@ -337,7 +421,8 @@ private:
             world_->maxM = -world_->minM;
         }
         widen(layer, extentOf(source));
-        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(source)});
+        layers_.push_back(source.layers ? source.layers->layers.back() : SourceLayer());
+        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(source), layers_.size() - 1});
         return {};
     }
 
@@ -361,6 +446,7 @@ private:
 
     void addAreas(const WorldLayer& layer, RasterAreas opened) {
         skipped_.insert(skipped_.end(), opened.skipped.begin(), opened.skipped.end());
+        layers_.push_back(opened.areas.empty() ? SourceLayer() : rasterLayer(layer.name, opened.areas));
         // The finest rasters come first and must lie on top, so they are added last.
         std::ranges::reverse(opened.areas);
         for (RasterArea& area : opened.areas) {
@@ -371,7 +457,7 @@ private:
                 part->rim.emplace(part->area, std::min(1.0, layer.featherM / radiusM_),
                                   showsBelow ? RimDistance::Rims::TilesAndVoids : RimDistance::Rims::Tiles);
             }
-            world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(part)});
+            world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(part), layers_.size() - 1});
         }
     }
 
@@ -391,17 +477,20 @@ private:
         world_->maxM = refined.maxM;
         extent_ = {refined.minM, refined.maxM, refined.naturalFaceSize - 1, extent.sampleCount,
                    extent.missingCount};
-        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(refined)});
+        layers_.push_back(refined.layers->layers.back());
+        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(refined), layers_.size() - 1});
         return {};
     }
 
     HeightSourceSettings settings_;
     std::shared_ptr<MosaicCache> cache_;
     double radiusM_;
+    double fillM_;
     std::optional<VerticalDatum> datum_;  // of the planet
     std::optional<DatumShift> shift_;     // of the layer that is being added
     std::unique_ptr<World> world_;
     Extent extent_;
+    std::vector<SourceLayer> layers_;
     std::vector<std::string> skipped_;  // as in HeightSource
 };
 

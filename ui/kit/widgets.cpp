@@ -230,7 +230,7 @@ bool combo(const char* name, int& index, const char* items) {
     for (int i = 0; i < index && *shown; ++i) shown = next(shown);
     bool changed = false;
     ImGui::PushID(name);
-    if (ImGui::BeginCombo("##value", inFont(shown).c_str())) {
+    if (ImGui::BeginCombo("##value", inFont(shown).c_str(), ImGuiComboFlags_HeightLarge)) {
         int i = 0;
         for (const char* item = items; *item; item = next(item), ++i) {
             if (ImGui::Selectable(inFont(item).c_str(), i == index)) {

@@ -17,6 +17,7 @@ Command::Command(InstrumentCommand command) : feature_(command) {}
 Command::Command(RecordingCommand command) : feature_(std::move(command)) {}
 Command::Command(SweepCommand command) : feature_(std::move(command)) {}
 Command::Command(CompareCommand command) : feature_(std::move(command)) {}
+Command::Command(SourceCommand command) : feature_(std::move(command)) {}
 
 Command::Command(Command&&) noexcept = default;
 Command& Command::operator=(Command&&) noexcept = default;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/data/bake_request.h"
+#include "app/data/world_edit.h"
 #include "app/measure/pop_side.h"
 #include "app/measure/sweep_points.h"
 #include "app/settings/view_settings.h"
@@ -239,9 +240,26 @@ struct CancelCompareFlight {};
 using CompareCommand = std::variant<StartCompare, StopCompare, SwapCompare, MeasureCompare, CompareOverFlight,
                                     CancelCompareFlight>;
 
-using FeatureCommand = std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand,
-                                    BakeCommand, SettingsCommand, WindowCommand, LayerCommand,
-                                    InstrumentCommand, RecordingCommand, SweepCommand, CompareCommand>;
+// The source of the shown planet, and its layers.
+struct ReadSource {};  // opens the source in the background to describe its layers
+struct EditLayers {    // replaces the edited layers
+    WorldEdit edit;
+};
+struct RevertLayers {};  // to those of the file
+struct BakeLayers {};    // with the settings of the open file
+struct SaveLayers {      // as a world file
+    std::filesystem::path file;
+};
+struct AddDroppedFiles {};   // adds the files of the drop question as a layer
+struct OpenDroppedFiles {};  // opens them as a planet
+struct DismissDrop {};
+using SourceCommand = std::variant<ReadSource, EditLayers, RevertLayers, BakeLayers, SaveLayers,
+                                   AddDroppedFiles, OpenDroppedFiles, DismissDrop>;
+
+using FeatureCommand =
+    std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand, BakeCommand,
+                 SettingsCommand, WindowCommand, LayerCommand, InstrumentCommand, RecordingCommand,
+                 SweepCommand, CompareCommand, SourceCommand>;
 
 // FeatureOf<Kind> is the variant that holds a kind of command: FeatureOf<SelectChunk> is ChunkCommand.
 template <class Kind, class Features>
@@ -274,6 +292,7 @@ public:
     Command(RecordingCommand command);
     Command(SweepCommand command);
     Command(CompareCommand command);
+    Command(SourceCommand command);
     Command(Command&&) noexcept;
     Command& operator=(Command&&) noexcept;
     ~Command();

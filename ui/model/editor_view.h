@@ -28,6 +28,7 @@
 #include "ui/model/pops_view.h"
 #include "ui/model/probe_view.h"
 #include "ui/model/recording_view.h"
+#include "ui/model/sources_view.h"
 #include "ui/model/sweep_view.h"
 
 namespace worldy::ui {
@@ -153,6 +154,7 @@ struct EditorView {
     CompareView compare{};
     SweepView sweep{};
     LayersView layers{};
+    SourcesView sources{};
 };
 
 }  // namespace worldy::ui

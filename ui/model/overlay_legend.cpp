@@ -29,6 +29,16 @@ std::vector<LegendEntry> errorEntries(double yellowPx) {
     return entries;
 }
 
+// Lists the top layer first, as the Sources panel does.
+std::vector<LegendEntry> layerEntries(const std::vector<std::string>& layers) {
+    if (layers.empty()) return {{unmeasuredColour, "not known (Sources panel)"}};
+    std::vector<LegendEntry> entries;
+    for (std::size_t i = layers.size(); i-- > 0;) entries.push_back({layerColour(i), layers[i]});
+    entries.push_back({noLayerColour, "no layer"});
+    entries.push_back({unmeasuredColour, "not read yet"});
+    return entries;
+}
+
 // Returns a length with two digits below 1 m, which is enough for a scale in decades.
 std::string deltaText(double metres) {
     return metres < 1 ? fmt::format("{:.2g} m", metres) : distanceText(metres);
@@ -43,7 +53,8 @@ std::vector<LegendEntry> rampEntries(Label&& label) {
 
 }  // namespace
 
-Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel) {
+Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,
+                const LegendFacts& facts) {
     switch (overlay.colourBy) {
         case ColourBy::Level:
             return {"Level", levelEntries(deepestLevel)};
@@ -70,6 +81,21 @@ Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deep
             entries.push_back({unmeasuredColour, "not measured"});
             return {"Measured error", entries};
         }
+        case ColourBy::LeafDepth: {
+            std::vector<LegendEntry> entries =
+                levelEntries(static_cast<std::uint32_t>(planet::leafLevel(facts.shape)));
+            entries.push_back({unmeasuredColour, "not read yet"});
+            return {"Deepest leaf", entries};
+        }
+        case ColourBy::Spacing: {
+            std::vector<LegendEntry> entries = rampEntries([&](double share) {
+                return deltaText(leafSpacingM(facts.shape, share * planet::leafLevel(facts.shape)));
+            });
+            entries.push_back({unmeasuredColour, "not read yet"});
+            return {"Sample spacing", entries};
+        }
+        case ColourBy::Source:
+            return {"Source", layerEntries(facts.layers)};
         case ColourBy::None:
             break;
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/settings/view_settings.h"
+#include "planet/sphere/planet_shape.h"
 
 namespace worldy::ui {
 
@@ -19,6 +20,12 @@ struct Legend {
     std::string title;
     std::vector<LegendEntry> entries;
 };
-Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel);
+// What some tints need to know.
+struct LegendFacts {
+    planet::PlanetShape shape{};        // for ColourBy::LeafDepth and Spacing
+    std::vector<std::string> layers{};  // for ColourBy::Source: the names from the bottom up; none: not known
+};
+Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,
+                const LegendFacts& facts = {});
 
 }  // namespace worldy::ui

@@ -45,6 +45,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return sweepPanel(view, states.sweep, settings, commands);
         case PanelId::Light:
             return lightPanel(view, settings, commands);
+        case PanelId::Sources:
+            return sourcesPanel(view, states.sources, settings, commands);
     }
 }
 

@@ -21,6 +21,7 @@
 #include "ui/panels/measure/pops_panel.h"
 #include "ui/panels/measure/probe_panel.h"
 #include "ui/panels/paging/paging_panel.h"
+#include "ui/panels/sources/sources_panel.h"
 #include "ui/panels/surface/surface_panel.h"
 #include "ui/panels/sweep/sweep_panel.h"
 
@@ -41,6 +42,7 @@ struct PanelStates {
     FlightPanelState flight;
     ComparePanelState compare;
     SweepPanelState sweep;
+    SourcesPanelState sources;
 };
 
 // Fills the current window with a panel.

@@ -205,18 +205,24 @@ void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const
     }
 }
 
-Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay) {
+// Only the source of A is read.
+Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay,
+                 const planet::SourceLayers* layers = nullptr) {
     if (!planet) return {};
     // The levels of all views count, because an observer with its own LOD may draw finer chunks.
     std::uint32_t deepest = 0;
     for (std::size_t view = 0; view < planet->views().size(); ++view)
         deepest = std::max(deepest, planet->selection(view).counters.deepestLevel);
-    return legendOf(overlay, planet->views()[0].input.lod.tauPx, deepest);
+    LegendFacts facts{.shape = planet->tree().shape};
+    if (layers && overlay.colourBy == ColourBy::Source) {
+        for (const planet::SourceLayer& layer : layers->layers) facts.layers.push_back(layer.name);
+    }
+    return legendOf(overlay, planet->views()[0].input.lod.tauPx, deepest, facts);
 }
 
 // Returns the legend. While comparing it is A's, or B's if only B's chunks are tinted.
 Legend shownLegend(const EditorView& view, const OverlaySettings& overlay) {
-    Legend legend = legendFor(view.planet, overlay);
+    Legend legend = legendFor(view.planet, overlay, view.sources.layers);
     if (!view.compare.on) return legend;
     const bool ofA = !legend.entries.empty();
     if (!ofA) legend = legendFor(view.compare.planetB, view.compare.settingsB->overlay);

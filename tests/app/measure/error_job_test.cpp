@@ -132,7 +132,7 @@ TEST_F(Errors, TintChunksByWhatWasMeasuredAndGreyWhereNothingWas) {
     overlay.colourBy = ColourBy::Measured;
     ErrorMeasurement measured = *meter_.last;
     measured.indexOf.erase(measured.report.chunks[0].id);
-    const auto tints = chunkTints(*planet_, planet_->selection(), overlay, 3, &measured);
+    const auto tints = chunkTints(*planet_, planet_->selection(), overlay, 3, {.measured = &measured});
     ASSERT_EQ(tints.size(), measured.report.chunks.size());
     EXPECT_EQ(tints[0].rgba[0], 128);
     EXPECT_EQ(tints[0].rgba[2], 128);

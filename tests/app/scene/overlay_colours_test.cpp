@@ -104,6 +104,51 @@ TEST(OverlayColours, TintsStandInTheDrawListsOrderAndMeanWhatTheLegendSays) {
     }
 }
 
+TEST(OverlayColours, LeafDepthAndSpacingAreThoseOfTheDeepestLeaf) {
+    const auto planet = settledPlanet();
+    const planet::Selection& selection = planet->selection();
+    const int deepest = planet::leafLevel(planet->tree().shape);
+    // A dense planet, one of whose chunks is said to have shallower leaves.
+    const planet::DrawItem* coarse = nullptr;
+    for (const planet::DrawItem& item : selection.draw) {
+        if (planet->tree().nodes[item.node].childrenState != planet::ChildrenState::None) coarse = &item;
+    }
+    ASSERT_NE(coarse, nullptr);
+    LeafDepths depths;
+    depths.below[coarse->id] = static_cast<std::uint8_t>(deepest - 1);
+    OverlaySettings overlay;
+    for (const ColourBy by : {ColourBy::LeafDepth, ColourBy::Spacing}) {
+        overlay.colourBy = by;
+        const auto colourAt = [&](int level) {
+            return by == ColourBy::LeafDepth ? levelColour(level) : rampColour(spacingShare(level, deepest));
+        };
+        const auto tints = chunkTints(*planet, selection, overlay, 8, {.depths = &depths});
+        const auto unknown = chunkTints(*planet, selection, overlay, 8);
+        for (std::size_t i = 0; i < selection.draw.size(); ++i) {
+            const planet::DrawItem& item = selection.draw[i];
+            const bool isLeaf = planet->tree().nodes[item.node].childrenState == planet::ChildrenState::None;
+            const int level = &item == coarse ? deepest - 1 : isLeaf ? item.id.level : item.id.level + 1;
+            EXPECT_TRUE(isNear(colourOf(tints[i]), colourAt(level))) << toString(item.id);
+            EXPECT_TRUE(isNear(colourOf(unknown[i]), isLeaf ? colourAt(level) : unmeasuredColour));
+        }
+    }
+    EXPECT_NEAR(leafSpacingM(planet->tree().shape, 1) / leafSpacingM(planet->tree().shape, 3), 4, 1e-9);
+    EXPECT_DOUBLE_EQ(spacingShare(3, 12), 0.25);
+}
+
+TEST(OverlayColours, SourceIsTheTopmostLayerWithAHeight) {
+    const auto planet = settledPlanet();
+    const planet::Selection& selection = planet->selection();
+    const SourceTops tops = {{selection.draw[0].id, 2}, {selection.draw[1].id, std::nullopt}};
+    OverlaySettings overlay;
+    overlay.colourBy = ColourBy::Source;
+    const auto tints = chunkTints(*planet, selection, overlay, 8, {.tops = &tops});
+    EXPECT_TRUE(isNear(colourOf(tints[0]), layerColour(2)));
+    EXPECT_TRUE(isNear(colourOf(tints[1]), noLayerColour));
+    EXPECT_TRUE(isNear(colourOf(tints[2]), unmeasuredColour)) << "not asked yet";
+    EXPECT_TRUE(isNear(colourOf(chunkTints(*planet, selection, overlay, 8)[0]), unmeasuredColour));
+}
+
 TEST(OverlayColours, withoutColouringThereAreNoTints) {
     const auto planet = settledPlanet();
     EXPECT_TRUE(chunkTints(*planet, planet->selection(), {}, 2).empty());

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "planet/raster/vertical_datum.h"
+#include "planet/source/source_layers.h"
 #include "tests/planet/source/height_source_fixture.h"
 #include "tests/planet/source/raster_fixture.h"
 
@@ -124,6 +125,15 @@ TEST_F(VerticalDatums, LayerOfAnotherDatumIsConverted) {
     const HeightSource back =
         mustOpen(write("datum = \"egm96\"", "files = \"plain.tif\"\ndatum = \"ellipsoid\"\nscale = 2"));
     EXPECT_NEAR(sampledNear(back, finest, 45.3, 10), 600 - egm96At(10, 45.3), 1e-3);
+}
+
+TEST_F(VerticalDatums, ReadingOfALayerIsConverted) {
+    plantEgm96();
+    const HeightSource world =
+        mustOpen(write("datum = \"ellipsoid\"", "files = \"plain.tif\"\ndatum = \"egm96\"\nscale = 2"));
+    const auto readings = world.layers->at({45.3 * radPerDeg, 10 * radPerDeg});
+    ASSERT_TRUE(readings) << readings.error().message;
+    EXPECT_NEAR((*readings)[0].heightM.value(), 600 + egm96At(10, 45.3), 1e-3);
 }
 
 TEST_F(VerticalDatums, ImageOfThePlanetIsConvertedToo) {

@@ -46,5 +46,30 @@ TEST(OverlayLegend, EveryColouringHasALegendWithUnits) {
     EXPECT_EQ(legendOf(overlay, 2, 4).entries[0].label, "0.1 m");
 }
 
+TEST(OverlayLegend, namesTheLeavesTheirSpacingAndTheLayers) {
+    // 1024 cells along a face in chunks of 32 cells: the leaves have level 5.
+    const LegendFacts facts{.shape = {.radiusM = 1024 * 2 / 3.14159265358979 * 100, .faceCellsLog2 = 10},
+                            .layers = {"low", "high"}};
+    OverlaySettings overlay;
+    overlay.colourBy = ColourBy::LeafDepth;
+    const Legend depth = legendOf(overlay, 2, 3, facts);
+    ASSERT_EQ(depth.entries.size(), 7u);
+    EXPECT_EQ(depth.entries[5].label, "5");
+    EXPECT_EQ(depth.entries[5].colour, levelColour(5));
+    EXPECT_EQ(depth.entries[6].colour, unmeasuredColour);
+    overlay.colourBy = ColourBy::Spacing;
+    const Legend spacing = legendOf(overlay, 2, 3, facts);
+    EXPECT_EQ(spacing.entries[4].label, "100 m") << "the finest samples are the lightest";
+    EXPECT_EQ(spacing.entries[4].colour, rampColour(1));
+    EXPECT_EQ(spacing.entries[0].label, "3200 m");
+    overlay.colourBy = ColourBy::Source;
+    const Legend source = legendOf(overlay, 2, 3, facts);
+    ASSERT_EQ(source.entries.size(), 4u);
+    EXPECT_EQ(source.entries[0].label, "high") << "the top layer first";
+    EXPECT_EQ(source.entries[0].colour, layerColour(1));
+    EXPECT_EQ(source.entries[1].label, "low");
+    EXPECT_EQ(legendOf(overlay, 2, 3).entries.size(), 1u) << "the source is not known";
+}
+
 }  // namespace
 }  // namespace worldy::ui

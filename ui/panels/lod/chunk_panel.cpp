@@ -10,6 +10,7 @@
 #include "app/base/text.h"
 #include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/source_readings.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -390,6 +391,9 @@ void chunkPanel(const EditorView& view, ChunkPanelState& state, Commands& comman
     drawingRows(view, explanation, node);
     if (node && section("Error")) errorRows(explanation);
     if (section("Position")) placeRows(view, explanation, node);
+    if (section("Source"))
+        sourceReadings("source", view.sources, view.sources.selected, "The source is being asked...",
+                       commands);
     if (section("Parents")) parents(explanation.id, commands);
     if (section("Drawn neighbours")) neighbours(view, explanation.id, commands);
     if (node && section("Heights")) {

@@ -35,6 +35,7 @@ void drawnControls(const SettingControls& control, OverlaySettings& overlay) {
     control(overlay.wireframe);
     control.beside(overlay.cube);
     control(overlay.clipmap);
+    control.beside(overlay.sources);
     control(overlay.skirtPaint);
     control(overlay.labels);
 }

@@ -122,6 +122,20 @@ void drawNetLine(ImDrawList& drawList, const NetPlacement& placement,
     }
 }
 
+// Draws the outlines of the source's layers.
+void drawSources(ImDrawList& drawList, const NetPlacement& placement, const planet::SourceLayers& source) {
+    const float width = 1.4f * ImGui::GetFontSize() / 13;
+    for (std::size_t i = 0; i < source.layers.size(); ++i) {
+        for (const planet::Outline& outline : source.layers[i].outlines) {
+            std::vector<glm::dvec3> directions;
+            for (const planet::Geographic& place : outline)
+                directions.push_back(planet::directionFromGeographic(place));
+            drawNetLine(drawList, placement, directions, IM_COL32(0, 0, 0, 150), 2.2f * width);
+            drawNetLine(drawList, placement, directions, packed(layerColour(i)), width);
+        }
+    }
+}
+
 // Draws a camera's position, an arrow in its viewing direction, and the outline of what it sees.
 void drawCamera(ImDrawList& drawList, const NetPlacement& placement, const planet::View& view, double radiusM,
                 const ImVec4& colour) {
@@ -234,6 +248,7 @@ void net(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanel
     fillNetRects(data, placement, area, colouringOf(state, overlay), state.rects);
     drawRects(drawList, state.rects);
     faceNames(drawList, placement);
+    if (overlay.sources && view.sources.layers) drawSources(drawList, placement, *view.sources.layers);
     const double radiusM = view.planet->tree().shape.radiusM;
     if (view.camera.lodFrozen)
         drawCamera(drawList, placement, view.camera.renderView, radiusM, palette().dim);

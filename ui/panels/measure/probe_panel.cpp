@@ -7,6 +7,7 @@
 
 #include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
+#include "ui/kit/source_readings.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
@@ -102,6 +103,9 @@ void probePanel(const EditorView& view, Commands& commands) {
         else
             ImGui::TextWrapped("Point at the ground in the viewport.");
     }
+    if (section("Source under the pointer"))
+        sourceReadings("source", view.sources, view.sources.pointed, "Point at the ground in the viewport.",
+                       commands);
     if (!section("Selected chunk, max-error vertex")) return;
     if (probe.selected)
         probed("selected", *probe.selected, view, commands);

@@ -1,4 +1,4 @@
-#include "app/editor/undo.h"
+#include "app/settings/undo.h"
 
 #include <gtest/gtest.h>
 

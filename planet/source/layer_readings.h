@@ -1,0 +1,41 @@
+// The parts that the kinds of height source describe their layers with (source_layers.h). Internal to the library; any
+// thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "planet/base/result.h"
+#include "planet/raster/raster_area.h"
+#include "planet/source/height_source_types.h"
+#include "planet/source/raster_sampling.h"
+#include "planet/source/source_layers.h"
+
+namespace planet {
+
+// Returns the layers of a source that is one layer. at: its reading of a place.
+std::shared_ptr<const SourceLayers> singleLayer(
+    SourceLayer layer, std::function<Result<SourceReading>(const Geographic& place)> at);
+
+// Describes a source that covers the planet; its sample and missing counts must be set.
+SourceLayer wholeLayer(const HeightSource& source, LayerKind kind, double spacingRad);
+
+// Describes rasters of one layer, at least one. name: of the layer.
+SourceLayer rasterLayer(const std::string& name, std::span<const RasterArea> areas);
+
+// Returns "mesa.tif, 101 x 101 float, WGS 84", or "mesa.tif, 3 rasters on 2 grids, WGS 84".
+std::string aboutRasters(const std::string& name, std::span<const RasterArea> areas);
+
+// A place on the grid of rasters.
+PiecePlaces placesOf(const Geographic& place);
+// Reads the sample nearest to a place on the grid: the first one of onGrid. Its height is as the file says.
+Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onGrid);
+
+// Returns the height of a source at the nearest point of the grid of its natural face size.
+Result<SourceReading> readGridPoint(
+    const std::function<Result<void>(const SampleTile& tile, std::span<float> out)>& sample,
+    int naturalFaceSize, const Geographic& place);
+
+}  // namespace planet
