@@ -130,6 +130,7 @@ TEST_F(SourceControllerTest, EditedLayersAreBakedAndOutliveTheirPlanet) {
                                             session.open->scene.planet->tree().maxStep);
     EXPECT_NEAR(highestM, 600, 1) << "the raster with its offset";
     EXPECT_TRUE(view(session).edited) << "from the world file that was opened";
+    EXPECT_EQ(view(session).source, folder_ / "world.toml");
     EXPECT_EQ(view(session).edit->layers[1].layer.offsetM, 100);
     run(session, ui::RevertLayers{});
     EXPECT_FALSE(view(session).edited);
