@@ -182,15 +182,15 @@ constexpr std::array layerKeys = {
 };
 
 // A kind of layers, the name of its tables, and the keys that it knows.
-struct LayerKind {
+struct TableKind {
     std::string_view table;
     bool (*knows)(std::string_view key);
 };
-constexpr LayerKind elevationKind = {"elevation", [](std::string_view) { return true; }};
-constexpr LayerKind colourKind = {
+constexpr TableKind elevationKind = {"elevation", [](std::string_view) { return true; }};
+constexpr TableKind colourKind = {
     "colour", [](std::string_view key) { return key == "name" || key == "files" || key == "feather_m"; }};
 
-std::string knownKeys(const LayerKind& kind) {
+std::string knownKeys(const TableKind& kind) {
     std::string names;
     for (const LayerKey& key : layerKeys) {
         if (kind.knows(key.name)) names += fmt::format("{}{}", names.empty() ? "" : ", ", key.name);
@@ -267,7 +267,7 @@ Result<void> checkLayer(const std::string& place, const WorldLayer& layer, bool 
     return checkPlace(place, layer);
 }
 
-Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node& node, const LayerKind& kind,
+Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node& node, const TableKind& kind,
                              bool isFirst) {
     const toml::table* const table = node.as_table();
     const std::string place = placeOf(file, node);
@@ -290,7 +290,7 @@ Result<WorldLayer> readLayer(const std::filesystem::path& file, const toml::node
 
 // Reads the layers of a kind; none if there is no such table.
 Result<std::vector<WorldLayer>> readLayers(const std::filesystem::path& file, const toml::table& table,
-                                           const LayerKind& kind) {
+                                           const TableKind& kind) {
     std::vector<WorldLayer> layers;
     const toml::node* const node = table.get(kind.table);
     if (!node) return layers;
@@ -409,7 +409,7 @@ std::string worldText(const WorldFile& world, const std::filesystem::path& folde
     if (world.radiusM != plain.radiusM) table.insert("radius_m", world.radiusM);
     if (world.fillM != plain.fillM) table.insert("fill_m", world.fillM);
     if (world.datum) table.insert("datum", nameOf(*world.datum));
-    const auto insertLayers = [&](const LayerKind& kind, const std::vector<WorldLayer>& layers) {
+    const auto insertLayers = [&](const TableKind& kind, const std::vector<WorldLayer>& layers) {
         if (layers.empty()) return;
         toml::array tables;
         for (const WorldLayer& layer : layers) tables.push_back(tableOf(layer, folder));
