@@ -143,9 +143,9 @@ Json rimsJson(const std::optional<planet::RimReport>& rims) {
 void printRims(const FileCommandOptions& options, const planet::RimReport& rims) {
     const planet::SteepestStep& steepest = rims.steepest;
     fmt::print(
-        "{}: the steepest step at a rim of finer data is {:.1f} m over {:.1f} m, {:.1f} degrees, at {} in "
-        "chunk {}; of "
-        "all slopes on leaves of its level, 99.9 % are below {:.1f} degrees and the steepest has {:.1f}\n",
+        "{}: the steepest step at a rim of finer data is {:.1f} m over {:.1f} m ({:.1f}°), at {} in chunk "
+        "{}; on leaves "
+        "of its level, 99.9 % of the slopes are below {:.1f}°, and the steepest has {:.1f}°\n",
         options.file.string(), steepest.stepM, steepest.overM, degreesOf(steepest.slope()),
         placeText(glm::degrees(steepest.place.latitudeRad), glm::degrees(steepest.place.longitudeRad)),
         planet::toString(steepest.chunk), degreesOf(rims.levelP999Slope), degreesOf(rims.levelLargestSlope));

@@ -371,8 +371,11 @@ BakeWalk::BakeWalk(const HeightSource& source, const PlanetShape& shape, int uni
         Place place{{*face, 0, 0, 0}, {}, false, -1};
         if (earlier_) {
             Result<ChunkData> root = earlier_->file().readRoot(*face);
-            if (root) place.old = *std::move(root);
-            if (!root && problem_.empty()) problem_ = root.error().message;
+            if (root) {
+                place.old = *std::move(root);
+            } else if (problem_.empty()) {
+                problem_ = root.error().message;
+            }
         }
         open_.push_back(std::move(place));
     }

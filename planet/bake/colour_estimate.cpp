@@ -10,7 +10,6 @@
 #include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
 #include "planet/format/colour_tile.h"
-#include "planet/format/tile_layout.h"
 
 namespace planet {
 

@@ -58,9 +58,9 @@ void RimSteps::add(const ChunkData& leaf) {
     if (steepestAt == leaf.heights.size()) return;
     steepest.chunk = leaf.id;
     const double cell = 1.0 / chunkCells(shape_);
-    steepest.place =
-        geographicFromDirection(directionAt(leaf.id, static_cast<double>(steepestAt % side) * cell,
-                                            static_cast<double>(steepestAt / side) * cell));
+    const std::size_t row = steepestAt / side;
+    steepest.place = geographicFromDirection(
+        directionAt(leaf.id, static_cast<double>(steepestAt % side) * cell, static_cast<double>(row) * cell));
 }
 
 double RimSteps::slopeBelow(int level, double share) const {

@@ -523,7 +523,8 @@ Result<TrueErrorReport> measureTrueError(const DrawnSnapshot& snapshot, FinestHe
         chunks[i].id = snapshot.items[i].id;
         chunks[i].epsPx = static_cast<double>(snapshot.items[i].epsPx);
         chunks[i].drawnBoundPx = static_cast<double>(snapshot.items[i].drawnBoundPx);
-        if (isExact(snapshot, i)) chunks[i].samples = chunkVertexCount(snapshot.shape);
+        if (isExact(snapshot, i))
+            chunks[i].samples = static_cast<std::uint64_t>(chunkVertexCount(snapshot.shape));
     }
     Measuring measuring(snapshot, heights, progress);
     TRY(measuring.run());

@@ -167,10 +167,12 @@ Outline onPlanet(const RasterPlacement& placement, const Loop& loop, double apar
         const Corner& to = loop[(i + 1) % loop.size()];
         const auto right = static_cast<double>(to.column - from.column);
         const auto down = static_cast<double>(to.row - from.row);
-        const double parts = std::max(1.0, std::ceil(std::hypot(right, down) / apart));
-        for (double part = 0; part < parts; ++part) {
-            columns.push_back(static_cast<double>(from.column) - 0.5 + right * part / parts);
-            rows.push_back(static_cast<double>(from.row) - 0.5 + down * part / parts);
+        const auto parts =
+            std::max<std::int64_t>(1, std::llround(std::ceil(std::hypot(right, down) / apart)));
+        for (std::int64_t part = 0; part < parts; ++part) {
+            const double share = static_cast<double>(part) / static_cast<double>(parts);
+            columns.push_back(static_cast<double>(from.column) - 0.5 + right * share);
+            rows.push_back(static_cast<double>(from.row) - 0.5 + down * share);
         }
     }
     std::vector<double> longitudes(columns.size());

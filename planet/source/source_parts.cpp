@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <utility>
 
 #include "planet/base/file_calls.h"
 #include "planet/base/open_file.h"

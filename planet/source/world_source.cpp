@@ -208,7 +208,7 @@ Result<void> appendReadings(const WorldPart& part, const Geographic& place,
         const SourceReading* const top = topmost(found);
         SourceReading reading = top ? *top : found.front();
         TRY(convertReading(part, places, reading));
-        found.assign(1, std::move(reading));
+        found.assign(1, reading);
     }
     std::ranges::move(found, std::back_inserter(readings));
     return {};

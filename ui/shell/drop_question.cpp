@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/base/text.h"
 #include "ui/kit/item_map.h"
-#include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
 namespace worldy::ui {
