@@ -15,6 +15,7 @@
 #include "planet/source/layer_readings.h"
 #include "planet/source/source_parts.h"
 #include "planet/source/terrain_sources.h"
+#include "planet/source/whole_layer.h"
 
 namespace planet {
 

@@ -20,8 +20,8 @@
 #include "planet/source/height_filter.h"
 #include "planet/source/height_geographic.h"
 #include "planet/source/height_source_kinds.h"
-#include "planet/source/layer_readings.h"
 #include "planet/source/sample_tiles.h"
+#include "planet/source/whole_layer.h"
 
 namespace planet {
 

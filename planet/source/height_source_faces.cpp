@@ -22,8 +22,8 @@
 #include "planet/source/height_face_edges.h"
 #include "planet/source/height_filter.h"
 #include "planet/source/height_source_kinds.h"
-#include "planet/source/layer_readings.h"
 #include "planet/source/sample_tiles.h"
+#include "planet/source/whole_layer.h"
 #include "planet/sphere/face_fold.h"
 #include "planet/sphere/planet_shape.h"
 

@@ -21,6 +21,7 @@
 #include "planet/source/raster_sampling.h"
 #include "planet/source/sample_tiles.h"
 #include "planet/source/source_parts.h"
+#include "planet/source/whole_layer.h"
 
 namespace planet {
 

@@ -1,4 +1,4 @@
-// The parts that the kinds of height source describe their layers with (source_layers.h). Internal to the library; any
+// The parts that sources of rasters describe their layers with (source_layers.h). Internal to the library; any
 // thread.
 #pragma once
 
@@ -14,13 +14,6 @@
 #include "planet/source/source_layers.h"
 
 namespace planet {
-
-// Returns the layers of a source that is one layer. at: its reading of a place.
-std::shared_ptr<const SourceLayers> singleLayer(
-    SourceLayer layer, std::function<Result<SourceReading>(const Geographic& place)> at);
-
-// Describes a source that covers the planet; its sample and missing counts must be set.
-SourceLayer wholeLayer(const HeightSource& source, LayerKind kind, double spacingRad);
 
 // Describes rasters of one layer, at least one. name: of the layer.
 SourceLayer rasterLayer(const std::string& name, std::span<const RasterArea> areas);

@@ -2,6 +2,7 @@
 
 #include "planet/base/try.h"
 #include "planet/source/layer_readings.h"
+#include "planet/source/whole_layer.h"
 
 namespace planet {
 
