@@ -206,9 +206,9 @@ TEST_P(SparseErrors, AreThoseOfTheSamplesOfAllLeavesUnderAChunk) {
         const double expected = std::max(own, static_cast<double>(ofChildren));
         ASSERT_NEAR(chunk.deltaTightM, expected, 2e-7 * expected + 1e-6) << toString(id);
         ASSERT_LE(chunk.deltaTightM, chunk.deltaCM) << toString(id);
-        forEachLeaf(baked.chunks, id, [&](const ChunkData& leaf) {
-            ASSERT_LE(chunk.minStep, leaf.minStep);
-            ASSERT_GE(chunk.maxStep, leaf.maxStep);
+        forEachLeaf(baked.chunks, id, [&ancestor = chunk](const ChunkData& leaf) {
+            ASSERT_LE(ancestor.minStep, leaf.minStep);
+            ASSERT_GE(ancestor.maxStep, leaf.maxStep);
         });
     }
 }
