@@ -53,7 +53,7 @@ struct BakeReport {
     std::uint64_t colourTiles = 0;
     std::uint64_t colourBytes = 0;  // in the file
     std::string colourNotice;       // ColourSource::notice
-    // Of a bake with BakeSettings::reuse.
+    // These count only in a bake with BakeSettings::reuse.
     std::uint64_t copiedChunks = 0;       // chunks whose blocks were copied
     std::uint64_t copiedColourTiles = 0;  // all or none
     std::uint64_t sampledCells = 0;       // cells of leaves that were sampled; without reuse, of all leaves

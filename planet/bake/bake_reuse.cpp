@@ -354,7 +354,7 @@ void EarlierBake::compareFilters(const PlanetShape& shape, const std::vector<Sou
 bool EarlierBake::isUnchanged(const ChunkData& chunk) const {
     const PlanetShape& shape = file_.info().shape;
     if (heightM(shape, chunk.minStep) < minM_ || heightM(shape, chunk.maxStep) > maxM_) return false;
-    // Where data is finer than the coarser of both face sizes, the trees may differ too.
+    // The trees may differ too where data is finer than the coarser of both face sizes.
     if (cells_ > 0 && (!source_->finestCells || source_->finestCells(chunk.id) > cells_)) return false;
     if (parts_.empty() && newParts_.empty() && filtered_.empty()) return true;
     const DirectionCone square = chunkDirections(chunk.id).cone;

@@ -7,7 +7,7 @@
 // be finer than the samples of all its parts. Then the blocks under the chunk are copied as they are: entries name
 // their children by distance, so blocks that lie together can move.
 //
-// What is copied is the largest possible subtree that lies together in the file, but at most pieceLevels levels of
+// A bake copies the largest possible subtrees that lie together in the file, but at most pieceLevels levels of
 // units: memory and the work of a task stay bounded. The chunks above the pieces are made again from their
 // children, with the tight metric of the earlier bake.
 //
@@ -128,7 +128,7 @@ private:
     std::string problem_;
 };
 
-// What a step makes.
+// The result of a step.
 struct StepResult {
     std::vector<BakedTile> tiles;
     std::uint64_t cells = 0;         // of all leaves

@@ -1,4 +1,4 @@
-// What a chunk file was baked from, so that a later bake can tell which chunks would come out the same
+// Records what a chunk file was baked from, so that a later bake can tell which chunks would come out the same
 // (bake_reuse.h). The record is the last part of a file; README.md in this folder has its bytes. Pure
 // functions, any thread.
 #pragma once

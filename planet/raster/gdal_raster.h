@@ -46,7 +46,7 @@ private:
     int band_ = 1;
     bool isPalette_ = false;  // the band holds indices of a colour table
     int channel_ = 0;         // of a colour of the table
-    // Of a picture: a pixel is missing if all of these bands have the file's no-data value.
+    // A pixel of a picture is missing if all of these bands have the file's no-data value.
     std::vector<int> voidBands_;
     double voidValue_ = 0;
 };

@@ -63,13 +63,13 @@ struct HeightSource {
     std::string notice{};
     // A message for each file that was left out because of HeightSourceSettings::skipBroken.
     std::vector<std::string> skipped{};
-    // What the source consists of, and which layer made the height of a place (source_layers.h). Null for colours.
+    // The layers of the source, which tell what made the height of a place (source_layers.h). Null for colours.
     std::shared_ptr<const SourceLayers> layers{};
 
     // Returns how often the files of georeferenced rasters were read so far. Null: it is not counted. Several
     // threads may call it at once.
     std::function<SourceReads()> reads{};
-    // Of a source that is one part; beyond them a finer filter changes nothing.
+    // A source of one part sets these: beyond them, a finer filter changes nothing.
     SampleDensities densities{};
     // Returns what the heights depend on, in the order in which it is joined: the heights of a place depend only on
     // the parts whose caps hold it and on the grid of the filter; they are clamped to [minM, maxM]. Reads the

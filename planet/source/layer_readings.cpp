@@ -93,7 +93,7 @@ Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onG
         tilesAt(area.mosaic, std::llround(onGrid.column[0]), std::llround(onGrid.row[0]));
     SourceReading reading;
     reading.isVoid = true;
-    // Where tiles overlap, the last one with a height counts, as in the mosaic.
+    // The last tile with a height counts where tiles overlap, as in the mosaic.
     for (std::size_t i = tiles.size(); i-- > 0;) {
         TRY_ASSIGN(const auto height, heightOf(tiles[i]));
         if (std::isnan(height) && i > 0) continue;
