@@ -207,7 +207,7 @@ Result<planet::HeightSource> openNamed(const FileCommandOptions& options) {
     });
 }
 
-// What the layers of a source say about a place; nothing if no source was asked for.
+// The readings of a source's layers at a place; nothing if no source was asked for.
 struct SourceProbe {
     std::shared_ptr<const planet::SourceLayers> source;
     std::vector<planet::SourceReading> readings;

@@ -42,7 +42,7 @@ inline const glm::vec3 noLayerColour(0.25f);  // for chunks in whose middle no l
 // The topmost layer with a height in the middle of chunks; nothing where no layer has one.
 using SourceTops = std::unordered_map<planet::ChunkId, std::optional<std::size_t>>;
 
-// What some tints need to know; null: not known, so the chunks are grey.
+// Some tints depend on these; the chunks are grey where one is null.
 struct TintData {
     const ErrorMeasurement* measured = nullptr;  // for ColourBy::Measured
     const LeafDepths* depths = nullptr;          // for ColourBy::LeafDepth and Spacing

@@ -1,4 +1,4 @@
-// What the layers of a source cover, as lines over the planet and as places to look at. Pure functions, any thread.
+// Turns the coverage of a source's layers into lines over the planet and places to look at. Pure functions, any thread.
 #pragma once
 
 #include "planet/gl/draw/debug_shapes.h"
