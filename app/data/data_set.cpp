@@ -1,6 +1,7 @@
 #include "app/data/data_set.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
@@ -22,13 +23,6 @@ namespace worldy {
 namespace {
 
 namespace fs = std::filesystem;
-
-// FNV-1a. It only names a file, so it need not resist forgery.
-std::uint64_t hashOf(const std::string& text) {
-    std::uint64_t hash = 0xCBF29CE484222325u;
-    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3u;
-    return hash;
-}
 
 // Truncates a name to 80 bytes, because a file name has at most 255. Does not split a UTF-8 character.
 std::string shortened(const std::string& name) {
@@ -128,7 +122,8 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
     if (planet::isTerrainText(source))
         identity += fmt::format("|{}", planet::wholeTerrainText(source).value_or(source.string()));
     identity += identityOf(colour, settings.colour);
-    return cacheFolder() / fmt::format("{}-{:016x}.chk", shortened(sourceFiles.stem), hashOf(identity));
+    return cacheFolder() / fmt::format("{}-{:016x}.chk", shortened(sourceFiles.stem),
+                                       XXH3_64bits(identity.data(), identity.size()));
 }
 
 fs::path earlierBakeOf(const fs::path& source, const planet::BakeSettings& settings) {

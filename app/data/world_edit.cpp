@@ -1,6 +1,7 @@
 #include "app/data/world_edit.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <span>
@@ -16,13 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using planet::Result;
-
-// FNV-1a. It only names a file.
-std::uint64_t contentHash(const std::string& text) {
-    std::uint64_t hash = 0xCBF29CE484222325u;
-    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3u;
-    return hash;
-}
 
 bool isPlain(const planet::HeightSourceSettings& s) {
     return !s.metresPerUnit && !s.offsetM && !s.noDataValue && s.fillM == 0 && !s.rawSize && !s.rawBits &&
@@ -129,7 +123,8 @@ void addLayer(WorldEdit& edit, std::span<const fs::path> files) {
 Result<fs::path> writeForBake(const WorldEdit& edit, const fs::path& folder, const std::string& stem) {
     if (Result<void> good = checkEdit(edit); !good) return tl::unexpected(std::move(good).error());
     // The name of the file stands in messages and in the chunk file, so it has no hash.
-    const fs::path own = folder / fmt::format("{:016x}", contentHash(textOf(edit, folder)));
+    const std::string content = textOf(edit, folder);
+    const fs::path own = folder / fmt::format("{:016x}", XXH3_64bits(content.data(), content.size()));
     const fs::path file = own / (stem + ".toml");
     std::error_code problem;
     if (fs::exists(file, problem)) return file;
