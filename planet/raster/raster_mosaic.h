@@ -39,7 +39,7 @@ struct GridReduction {
 // fine blocks drops no coarse ones, which take many fine ones to make again. Thread-safe.
 class MosaicCache {
 public:
-    // bytes: the limit, to which the coarsest resolutions add at most 10 MB.
+    // bytes: the limit, to which the coarsest resolutions add at most 12 MB.
     explicit MosaicCache(std::size_t bytes);
 
     HeightBlockCache& of(const GridReduction& reduction);

@@ -1,4 +1,4 @@
-// What the heights of rasters on one grid depend on (source_parts.h). Internal to the library; any thread.
+// Hashes what the heights of rasters on one grid depend on (source_parts.h). Internal to the library; any thread.
 #pragma once
 
 #include <cstdint>

@@ -35,13 +35,13 @@ struct SourceLayer {
     std::uint64_t missingCount = 0;      // samples without a height
     std::vector<std::string> skipped{};  // a message for each file that was left out
     bool coversPlanet = false;
-    // What its files cover, whether their samples have heights or not: at most 64 lines for each grid
+    // The outlines of its files, whether their samples have heights or not: at most 64 lines for each grid
     // (coverage_outline.h). None if it covers the planet.
     std::vector<Outline> outlines{};
     Geographic middle{};  // of what it covers
 };
 
-// What a layer says about a place: the sample that is nearest to it.
+// The sample of a layer that is nearest to a place.
 struct SourceReading {
     std::size_t layer = 0;  // in SourceLayers::layers
     // The height that the layer gives there in metres, after its scale, its offset and its datum; nothing if it has none

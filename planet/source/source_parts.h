@@ -1,4 +1,4 @@
-// What the heights of a source depend on, part by part (source_record.h), so that a bake can tell what has
+// Hashes what the heights of a source depend on, part by part (source_record.h), so that a bake can tell what has
 // changed since an earlier one. Internal to the library; any thread.
 //
 // A file counts by its content, wherever it lies and whenever it was written. Only of files of more than 256 MiB,

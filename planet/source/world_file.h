@@ -52,8 +52,8 @@ struct WorldLayer {
 };
 
 struct WorldFile {
-    // Of elevation and of colour, from the bottom up; not both are empty. A layer of colour has only a name, files and
-    // featherM.
+    // The layers of elevation and those of colour, from the bottom up. At least one list has a layer. A layer of colour
+    // has only a name, files and featherM.
     std::vector<WorldLayer> layers;
     std::vector<WorldLayer> colours;
     double radiusM = earthRadiusM;       // of the planet, for widths in metres; [1, 1e9]

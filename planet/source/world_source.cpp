@@ -193,7 +193,7 @@ Result<void> appendReadings(const WorldPart& part, const Geographic& place,
     const PiecePlaces places = placesOf(place);
     if (const auto* const rasters = std::get_if<std::unique_ptr<RasterPart>>(&part.content)) {
         TRY_ASSIGN(auto reading, readingOf(part, **rasters, places));
-        // Of the rasters of a layer, the first one with a height counts, or else the first one that lies there.
+        // The first raster of a layer with a height counts, or else the first one that lies there.
         const bool isSame = !readings.empty() && readings.back().layer == part.number;
         if (!isSame) {
             readings.push_back(std::move(reading));
@@ -323,7 +323,7 @@ public:
           fillM_(file.fillM),
           datum_(file.datum),
           world_(std::make_unique<World>()) {
-        // Where no layer has a colour, it is black.
+        // A place without a colour is black.
         world_->fillM = world_->minM = world_->maxM = settings.colourChannel ? 0 : file.fillM;
         // Layers of the whole planet have caches of their own, and all rasters share one.
         settings_.cacheBytes = std::max(leastCacheBytes, settings.cacheBytes / layers);

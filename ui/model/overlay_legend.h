@@ -20,7 +20,7 @@ struct Legend {
     std::string title;
     std::vector<LegendEntry> entries;
 };
-// What some tints need to know.
+// The legends of some tints need these facts.
 struct LegendFacts {
     planet::PlanetShape shape{};        // for ColourBy::LeafDepth and Spacing
     std::vector<std::string> layers{};  // for ColourBy::Source: the names from the bottom up; none: not known

@@ -1,4 +1,4 @@
-// What the editor knows about the source of the shown planet.
+// Describes the source of the shown planet for the panels.
 #pragma once
 
 #include <cstdint>

@@ -47,7 +47,7 @@ std::vector<LayerRow> rowsOf(const SourcesView& sources) {
     return rows;
 }
 
-// What the list asks for.
+// A request of the list.
 struct ListRequest {
     std::optional<std::size_t> switched;
     std::optional<std::pair<std::size_t, std::size_t>> moved;  // from, to
