@@ -243,7 +243,7 @@ void rasters(const fs::path& folder) {
     GDALSetRasterNoDataValue(GDALGetRasterBand(made, 1), -9999);
     std::vector<std::int16_t> samples(12 * 9);
     for (std::size_t i = 0; i < samples.size(); ++i)
-        samples[i] = static_cast<std::int16_t>(i % 7 ? i * 13 : -9999);
+        samples[i] = i % 7 == 0 ? std::int16_t{-9999} : static_cast<std::int16_t>(i * 13);
     if (GDALRasterIO(GDALGetRasterBand(made, 1), GF_Write, 0, 0, 12, 9, samples.data(), 12, 9, GDT_Int16, 0,
                      0) != CE_None)
         std::abort();
