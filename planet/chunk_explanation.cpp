@@ -52,9 +52,9 @@ public:
         } else if (deepest().childrenState == ChildrenState::None) {
             out_.state = ChunkState::NotInFile;
             out_.decidedBy = deepest().id;
-        } else if (id_.level > leafLevel(facts_.tree.shape)) {
+        } else if (id_.level > deepestLevelOf(facts_.tree.shape)) {
             out_.state = ChunkState::NotInFile;
-            out_.decidedBy = ancestorOf(id_, leafLevel(facts_.tree.shape));
+            out_.decidedBy = ancestorOf(id_, deepestLevelOf(facts_.tree.shape));
         } else {
             explainMissing();
         }
@@ -129,7 +129,7 @@ private:
     // Returns why a drawn chunk is not split.
     WhyNotSplit whyNotSplit(const ChunkNode& node) const {
         const bool isLeaf = node.childrenState == ChildrenState::None;
-        if (isLeaf && node.id.level < leafLevel(facts_.tree.shape)) return WhyNotSplit::SourceLimit;
+        if (isLeaf && node.id.level < deepestLevelOf(facts_.tree.shape)) return WhyNotSplit::SourceLimit;
         if (switchDistanceM(node) <= distanceOf(node)) return WhyNotSplit::GoodEnough;
         if (isLeaf) return WhyNotSplit::Leaf;
         if (node.id.level >= facts_.lod.maxLevel) return WhyNotSplit::LevelLimit;

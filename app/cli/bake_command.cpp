@@ -41,7 +41,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
         {"output", options.output.string()},
         {"face_size", planet::faceCells(report.shape) + 1},
         {"chunk_size", planet::chunkSize(report.shape)},
-        {"level_count", planet::leafLevel(report.shape) + 1},
+        {"level_count", planet::deepestLevelOf(report.shape) + 1},
         {"radius_m", report.shape.radiusM},
         {"quantum_m", report.shape.quantumM},
         {"samples", report.samples},
@@ -71,13 +71,13 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
                const planet::BakeReport& report) {
     fmt::print("{}\n", source.description);
     fmt::print("{}: {} levels, {} chunks of {} x {}, faces of {} x {}\n", options.output.string(),
-               planet::leafLevel(report.shape) + 1, report.chunks, planet::chunkSize(report.shape),
+               planet::deepestLevelOf(report.shape) + 1, report.chunks, planet::chunkSize(report.shape),
                planet::chunkSize(report.shape), planet::faceCells(report.shape) + 1,
                planet::faceCells(report.shape) + 1);
-    if (report.coarsestLeafLevel < planet::leafLevel(report.shape)) {
+    if (report.coarsestLeafLevel < planet::deepestLevelOf(report.shape)) {
         fmt::print("{} leaves on levels {} to {}, as fine as the sources\n",
                    planet::leafCountOf(report.chunks), report.coarsestLeafLevel,
-                   planet::leafLevel(report.shape));
+                   planet::deepestLevelOf(report.shape));
     }
     fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
                bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),

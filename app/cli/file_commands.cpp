@@ -101,7 +101,7 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
     fmt::print("  faces            {0} x {0} samples\n", planet::faceCells(shape) + 1);
     fmt::print("  chunks           {0} x {0} vertices\n", planet::chunkSize(shape));
     fmt::print("  leaves           {} of {} chunks, on levels {} to {}\n", planet::leafCountOf(info.chunks),
-               info.chunks, info.coarsestLeafLevel, planet::leafLevel(shape));
+               info.chunks, info.coarsestLeafLevel, planet::deepestLevelOf(shape));
     fmt::print("  finest samples   {}; source samples without data: {}\n", report.finestSamples,
                info.missingSamples);
     fmt::print("  size             {}, {:.2f} bits per finest sample\n\n",

@@ -41,7 +41,7 @@ struct IndexWalk {
 
 Result<LeafDepths> leafDepthsOf(const planet::ChunkFile& file, const std::function<bool()>& goOn,
                                 std::size_t mostChunks) {
-    if (planet::isDense(file.info())) return LeafDepths{planet::leafLevel(file.info().shape)};
+    if (planet::isDense(file.info())) return LeafDepths{planet::deepestLevelOf(file.info().shape)};
     IndexWalk walk{file, goOn, mostChunks, file.sizeBytes()};
     for (const planet::Face face : planet::allFaces) {
         const Result<planet::ChunkData> root = file.readRoot(face);

@@ -76,7 +76,8 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ViewS
     OpenPlanet open = openedAs(data, std::move(*scene));
     const planet::ChunkFile& file = open.scene.planet->file();
     log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
-              bytesText(static_cast<double>(file.sizeBytes())), planet::leafLevel(file.info().shape) + 1);
+              bytesText(static_cast<double>(file.sizeBytes())),
+              planet::deepestLevelOf(file.info().shape) + 1);
     log->debug("Depth buffer: {}", open.scene.renderer.chunks().capabilities().reversedZ
                                        ? "float, reversed Z"
                                        : "non-reversed, near plane follows the ground");

@@ -439,7 +439,7 @@ FlightRecord readContent(Reader& in) {
     record.name = in.utf8("name");
     record.data = readData(in);
     if (!in.ok()) return record;
-    in.setDeepest(std::min(planet::leafLevel(record.data.shape), planet::maxLevel));
+    in.setDeepest(std::min(planet::deepestLevelOf(record.data.shape), planet::maxLevel));
     const auto frames = in.get<std::uint32_t>();
     if (frames == 0 || frames > maxFlightFrames)
         in.fail(fmt::format("{} frames; expected [1, {}]", frames, maxFlightFrames));

@@ -63,7 +63,7 @@ glm::vec3 leafColour(const planet::DrawItem& item, const planet::ChunkNode& node
     if (!scale.data.depths && !isLeaf) return unmeasuredColour;
     const int level = isLeaf ? item.id.level : deepestLeaf(*scale.data.depths, item.id, false);
     if (scale.overlay.colourBy == ColourBy::LeafDepth) return levelColour(level);
-    return rampColour(spacingShare(level, planet::leafLevel(scale.shape)));
+    return rampColour(spacingShare(level, planet::deepestLevelOf(scale.shape)));
 }
 
 glm::vec3 sourceColour(const planet::ChunkId& id, const TintScale& scale) {

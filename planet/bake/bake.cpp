@@ -41,7 +41,7 @@ public:
     Assembler(const BakeContext& bake, AtomicFile& file)
         : bake_(bake),
           file_(file),
-          groups_(static_cast<std::size_t>(leafLevel(bake.shape)) + 1),
+          groups_(static_cast<std::size_t>(deepestLevelOf(bake.shape)) + 1),
           above_(groups_.size()),
           held_(groups_.size()) {}
 
@@ -377,7 +377,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     const Stopwatch stopwatch;
     TRY(checkBakeSettings(settings));
     TRY_ASSIGN(const auto shape, chooseShape(source, settings));
-    const int tileLevels = leafLevel(shape) - tileLevelOf(shape, settings.tileLevels);
+    const int tileLevels = deepestLevelOf(shape) - tileLevelOf(shape, settings.tileLevels);
     const TreeCount tree = countTree(source, shape).value();
     const BakeContext context{source, shape, settings.compressionLevel};
     ColourTree colourTree;

@@ -134,7 +134,7 @@ double estimatedBlockBytes(const PlanetShape& shape, const TreeCount& tree, cons
 // Returns the bytes of the root blocks.
 Result<double> rootBytes(const BakeContext& bake, BakeScratch& scratch) {
     const double samples = chunkVertexCount(bake.shape);
-    if (leafLevel(bake.shape) > 0) {
+    if (deepestLevelOf(bake.shape) > 0) {
         // On a root, neighbouring samples are far apart, so it hardly compresses.
         return faceCount * (1.8 * samples + 100);
     }
@@ -192,11 +192,11 @@ Result<std::vector<TreeUnit>> placesToBake(const BakeContext& bake, const std::f
     const std::uint64_t fewer = std::max(wanted / 4, fewestPlaces / 2);
     if (bake.source.finestCells) return sparsePlaces(bake, wanted, fewer, goOn);
     std::vector<TreeUnit> units;
-    for (const ChunkId& root : spreadPlaces(leafLevel(shape) - 1, wanted))
-        units.push_back({root, leafLevel(shape)});
-    if (leafLevel(shape) == 1) return units;
-    for (const ChunkId& root : spreadPlaces(leafLevel(shape) - 2, fewer))
-        units.push_back({root, leafLevel(shape)});
+    for (const ChunkId& root : spreadPlaces(deepestLevelOf(shape) - 1, wanted))
+        units.push_back({root, deepestLevelOf(shape)});
+    if (deepestLevelOf(shape) == 1) return units;
+    for (const ChunkId& root : spreadPlaces(deepestLevelOf(shape) - 2, fewer))
+        units.push_back({root, deepestLevelOf(shape)});
     return units;
 }
 
@@ -219,7 +219,7 @@ Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSetti
     TRY_ASSIGN(const auto roots, rootBytes(context, scratch));
     estimate.fileBytes = static_cast<double>(chunkFileHeaderBytes) + roots;
     estimate.seconds = stopwatch.elapsedS();
-    if (leafLevel(shape) == 0) return estimate;
+    if (deepestLevelOf(shape) == 0) return estimate;
 
     const int threads = bakeThreads(settings);
     TRY_ASSIGN(const auto places, placesToBake(context, goOn));

@@ -275,7 +275,7 @@ std::optional<SourceRecord> recordOf(const HeightSource& source, const BakeSetti
     record.settings = Fingerprint()
                           .add(bakeRevision)
                           .add(std::int32_t{settings.compressionLevel})
-                          .add(std::int32_t{leafLevel(shape) - tileLevelOf(shape, settings.tileLevels)})
+                          .add(std::int32_t{deepestLevelOf(shape) - tileLevelOf(shape, settings.tileLevels)})
                           .hash();
     record.minM = source.minM;
     record.maxM = source.maxM;

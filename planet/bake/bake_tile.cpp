@@ -95,7 +95,7 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
             fmt::format("face size: {} is invalid; expected 2^n + 1, for example 1025, 2049 or 4097", face));
     }
     shape.faceCellsLog2 = std::countr_zero(static_cast<unsigned>(face - 1));
-    if (face < chunk || shape.faceCellsLog2 > maxFaceCellsLog2 || leafLevel(shape) > maxLevel) {
+    if (face < chunk || shape.faceCellsLog2 > maxFaceCellsLog2 || deepestLevelOf(shape) > maxLevel) {
         return badInput(fmt::format("face size: {} is out of range; expected [{}, {}], from the chunk size",
                                     face, chunk,
                                     (1 << std::min(maxFaceCellsLog2, maxLevel + shape.chunkCellsLog2)) + 1));

@@ -9,7 +9,7 @@ namespace {
 // Returns the level whose leaves have leastFaceCells along a face, or the deepest if that is coarser.
 int coarsestLeafLevel(const PlanetShape& shape) {
     int level = 0;
-    while (level < leafLevel(shape) && (chunkCells(shape) << level) < leastFaceCells) ++level;
+    while (level < deepestLevelOf(shape) && (chunkCells(shape) << level) < leastFaceCells) ++level;
     return level;
 }
 
@@ -19,8 +19,8 @@ std::optional<int> evenLeafLevel(const HeightSource& source, const PlanetShape& 
     if (!isRefined(source, shape, id)) return id.level;
     if (levels == 0) return std::nullopt;
     if (!source.finestCells) {
-        const int below = leafLevel(shape) - id.level;
-        return below <= levels ? std::optional(leafLevel(shape)) : std::nullopt;
+        const int below = deepestLevelOf(shape) - id.level;
+        return below <= levels ? std::optional(deepestLevelOf(shape)) : std::nullopt;
     }
     const std::optional<int> level = evenLeafLevel(source, shape, childOf(id, 0), levels - 1);
     for (int q = 1; level && q < quadrantCount; ++q) {
@@ -33,7 +33,7 @@ class Counting {
 public:
     Counting(const HeightSource& source, const PlanetShape& shape, const std::function<bool()>& goOn)
         : source_(source), shape_(shape), goOn_(goOn) {
-        count_.coarsestLeafLevel = leafLevel(shape);
+        count_.coarsestLeafLevel = deepestLevelOf(shape);
     }
 
     std::optional<TreeCount> run() {
@@ -66,7 +66,7 @@ private:
 };
 
 TreeCount countDense(const PlanetShape& shape) {
-    const int deepest = leafLevel(shape);
+    const int deepest = deepestLevelOf(shape);
     TreeCount count;
     count.chunks = chunkCountOf(shape);
     count.coarsestLeafLevel = deepest;
@@ -80,7 +80,7 @@ TreeCount countDense(const PlanetShape& shape) {
 }  // namespace
 
 bool isRefined(const HeightSource& source, const PlanetShape& shape, const ChunkId& id) {
-    if (id.level >= leafLevel(shape)) return false;
+    if (id.level >= deepestLevelOf(shape)) return false;
     if (!source.finestCells || id.level < coarsestLeafLevel(shape)) return true;
     return source.finestCells(id) > (chunkCells(shape) << id.level);
 }

@@ -54,7 +54,7 @@ Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLo
     level.chunks += quadrantCount;
     level.bytes += block.size;
     TRY(spendOn(file, block, bytesLeft));
-    if (parent.level + 1 == leafLevel(file.info().shape)) {
+    if (parent.level + 1 == deepestLevelOf(file.info().shape)) {
         level.leaves += quadrantCount;
         return {};
     }
@@ -117,8 +117,8 @@ public:
     explicit TightVerifier(const ChunkFile& file)
         : file_(file),
           shape_(file.info().shape),
-          levels_(leafLevel(shape_) - tileLevelOf(shape_, std::nullopt)),
-          above_(static_cast<std::size_t>(leafLevel(shape_)) + 1) {}
+          levels_(deepestLevelOf(shape_) - tileLevelOf(shape_, std::nullopt)),
+          above_(static_cast<std::size_t>(deepestLevelOf(shape_)) + 1) {}
 
     struct Met {
         ChunkId id;
@@ -477,7 +477,7 @@ private:
 
 Result<FileReport> reportFile(const ChunkFile& file) {
     const PlanetShape& shape = file.info().shape;
-    std::vector<LevelTally> tallies(static_cast<std::size_t>(leafLevel(shape)) + 1);
+    std::vector<LevelTally> tallies(static_cast<std::size_t>(deepestLevelOf(shape)) + 1);
     std::uint64_t bytesLeft = file.sizeBytes();
     for (const Face face : allFaces) {
         TRY_ASSIGN(const auto root, file.readRoot(face));
@@ -491,7 +491,7 @@ Result<FileReport> reportFile(const ChunkFile& file) {
     report.fileBytes = file.sizeBytes();
     report.finestSamples = sampleCountOf(file.info());
     std::uint64_t heightBytes = chunkFileHeaderBytes;
-    for (int level = 0; level <= leafLevel(shape); ++level) {
+    for (int level = 0; level <= deepestLevelOf(shape); ++level) {
         report.levels.push_back(summarise(level, tallies[static_cast<std::size_t>(level)]));
         heightBytes += report.levels.back().bytes;
     }

@@ -164,7 +164,8 @@ private:
 
 int tileLevelOf(const PlanetShape& shape, std::optional<int> levels) {
     constexpr int cellsLog2 = 7;
-    return std::max(0, leafLevel(shape) - levels.value_or(std::max(1, cellsLog2 - shape.chunkCellsLog2)));
+    return std::max(0,
+                    deepestLevelOf(shape) - levels.value_or(std::max(1, cellsLog2 - shape.chunkCellsLog2)));
 }
 
 int coarsestLevelOfTiles(int tileLevel, const PlanetShape& shape) {
@@ -178,11 +179,11 @@ void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const 
     out.tile = tile;
     out.coarsestLevel = coarsestLevelOfTiles(tile.level, shape);
     out.largestM.clear();
-    if (out.coarsestLevel > leafLevel(shape) - 2) return;
+    if (out.coarsestLevel > deepestLevelOf(shape) - 2) return;
     facePositions(shape, faceSquareOf(tile), cells + 1, finest, scratch);
     const MeasuredTile grid{scratch, cells + 1};
-    for (int level = out.coarsestLevel; level <= leafLevel(shape) - 2; ++level) {
-        const std::size_t cell = std::size_t{1} << (leafLevel(shape) - level);
+    for (int level = out.coarsestLevel; level <= deepestLevelOf(shape) - 2; ++level) {
+        const std::size_t cell = std::size_t{1} << (deepestLevelOf(shape) - level);
         const std::size_t chunks = chunksAlong(level, tile.level);
         const std::size_t chunk = cells / chunks;
         std::vector<double>& largest = out.largestM.emplace_back(chunks * chunks);

@@ -153,7 +153,7 @@ Result<ChunkData> ChunkFile::readRoot(Face face) const {
     TRY_ASSIGN(const auto block,
                readContent(root.id, true, location, {1 + checksumBytes, largestBlockBytes(info_.shape)}));
     const std::span content(block);
-    const auto index = indexFrom(content, 1, leafLevel(info_.shape) > 0, location.offset);
+    const auto index = indexFrom(content, 1, deepestLevelOf(info_.shape) > 0, location.offset);
     if (!index) return invalid(root.id, index.error().message);
     root.heights.resize(static_cast<std::size_t>(chunkVertexCount(info_.shape)));
     if (auto decoded = decodeGrid(content.subspan(index->bytes), chunkSize(info_.shape), root.heights);
@@ -167,11 +167,11 @@ Result<ChunkData> ChunkFile::readRoot(Face face) const {
 
 Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
     const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const {
-    assert(parent.level < leafLevel(info_.shape));
+    assert(parent.level < deepestLevelOf(info_.shape));
     TRY_ASSIGN(const auto block,
                readContent(parent, false, location, {1 + checksumBytes, largestBlockBytes(info_.shape)}));
     const std::span content(block);
-    const bool aboveDeepest = parent.level + 1 < leafLevel(info_.shape);
+    const bool aboveDeepest = parent.level + 1 < deepestLevelOf(info_.shape);
     const auto index = indexFrom(content, quadrantCount, aboveDeepest, location.offset);
     if (!index) return invalid(parent, index.error().message);
     const int cells = chunkCells(info_.shape);
@@ -195,7 +195,7 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
 
 Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const ChunkId& parent,
                                                                      BlockLocation location) const {
-    assert(parent.level < leafLevel(info_.shape));
+    assert(parent.level < deepestLevelOf(info_.shape));
     if (location.size < 1 + checksumBytes) return invalid(parent, "it is too small for its index");
     const auto size =
         static_cast<std::uint32_t>(std::min<std::size_t>(largestIndexBytes, location.size - checksumBytes));
@@ -206,7 +206,7 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::readEntries(const Chunk
 Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::entriesFrom(const ChunkId& parent,
                                                                      BlockLocation location,
                                                                      std::span<const std::byte> bytes) const {
-    const bool aboveDeepest = parent.level + 1 < leafLevel(info_.shape);
+    const bool aboveDeepest = parent.level + 1 < deepestLevelOf(info_.shape);
     const auto index = indexFrom(bytes, quadrantCount, aboveDeepest, location.offset);
     if (!index) return invalid(parent, index.error().message);
     for (std::size_t q = 0; q < index->entries.size(); ++q) {
@@ -219,7 +219,7 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::entriesFrom(const Chunk
 
 Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::checkedEntries(
     const ChunkId& parent, BlockLocation location, std::span<const std::byte> block) const {
-    assert(parent.level < leafLevel(info_.shape));
+    assert(parent.level < deepestLevelOf(info_.shape));
     if (block.size() < 1 + checksumBytes) return invalid(parent, "it is too small for its index");
     TRY_ASSIGN(const auto content, checkedContent(parent, false, block));
     return entriesFrom(parent, location, content);

@@ -142,9 +142,9 @@ std::string shapeProblem(const PlanetShape& shape) {
 
 // Returns an empty text if a tree of the shape can have that many chunks and that coarsest leaf.
 std::string treeProblem(const ChunkFileInfo& info) {
-    if (info.coarsestLeafLevel > leafLevel(info.shape)) {
+    if (info.coarsestLeafLevel > deepestLevelOf(info.shape)) {
         return fmt::format("coarsest leaf level {}; expected [0, {}]", info.coarsestLeafLevel,
-                           leafLevel(info.shape));
+                           deepestLevelOf(info.shape));
     }
     PlanetShape above = info.shape;  // of the levels that are complete
     above.faceCellsLog2 = info.shape.chunkCellsLog2 + info.coarsestLeafLevel;

@@ -76,7 +76,7 @@ struct ColourPyramid {
 struct ChunkFileInfo {
     PlanetShape shape;
     std::uint64_t chunks = faceCount;  // of all levels
-    int coarsestLeafLevel = 0;         // [0, leafLevel(shape)]; equal to it if the tree is dense
+    int coarsestLeafLevel = 0;         // [0, deepestLevelOf(shape)]; equal to it if the tree is dense
     std::int16_t minStep = 0;          // over the whole planet
     std::int16_t maxStep = 0;
     std::uint64_t missingSamples = 0;  // source samples without data that were filled

@@ -338,7 +338,8 @@ bool isExact(const DrawnSnapshot& snapshot, std::size_t index) {
 
 // Returns the number of samples under a chunk, if all leaves under it are at the deepest level.
 std::uint64_t samplesUnder(const PlanetShape& shape, const ChunkId& id) {
-    const auto side = (static_cast<std::uint64_t>(chunkCells(shape)) << (leafLevel(shape) - id.level)) + 1;
+    const auto side =
+        (static_cast<std::uint64_t>(chunkCells(shape)) << (deepestLevelOf(shape) - id.level)) + 1;
     return side * side;
 }
 
@@ -363,7 +364,8 @@ std::vector<Piece> piecesOf(const DrawnSnapshot& snapshot) {
     for (std::size_t i = 0; i < snapshot.items.size(); ++i) {
         const ChunkId& id = snapshot.items[i].id;
         if (isExact(snapshot, i)) continue;
-        const int levels = snapshot.chunks[i].children.exists() ? leafLevel(snapshot.shape) - id.level : 0;
+        const int levels =
+            snapshot.chunks[i].children.exists() ? deepestLevelOf(snapshot.shape) - id.level : 0;
         addPieces(id, std::clamp(levels - 3, 0, 6), i, pieces);
     }
     return pieces;

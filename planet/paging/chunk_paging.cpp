@@ -27,7 +27,8 @@ Error namingFile(const ChunkFile* file, Error error) {
 Result<std::uint32_t> chunkSlotsFor(const PlanetShape& shape, std::uint64_t allChunks,
                                     std::size_t budgetBytes) {
     const std::size_t bytes = chunkBytesCpu(shape) + chunkBytesGpu(shape);
-    const std::size_t wanted = faceCount + 4 * quadrantCount * static_cast<std::size_t>(leafLevel(shape));
+    const std::size_t wanted =
+        faceCount + 4 * quadrantCount * static_cast<std::size_t>(deepestLevelOf(shape));
     const std::size_t least = std::min<std::uint64_t>(wanted, chunkCountOf(shape));
     if (budgetBytes < least * bytes) {
         return badInput(fmt::format("budget too small for this planet: {} bytes; expected at least {}",

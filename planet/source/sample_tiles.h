@@ -41,7 +41,7 @@ inline SampleTile tileOf(const PlanetShape& shape, const ChunkId& chunk, int lev
 }
 // Returns the same on the finest grid.
 inline SampleTile tileOf(const PlanetShape& shape, const ChunkId& chunk) {
-    return tileOf(shape, chunk, leafLevel(shape));
+    return tileOf(shape, chunk, deepestLevelOf(shape));
 }
 
 // Returns the tile with two points of a face as opposite corners.

@@ -48,7 +48,7 @@ constexpr int chunkVertexCount(const PlanetShape& shape) {
 }
 // Returns the deepest level, whose chunks hold the finest samples. In a sparse tree, leaves lie at any level
 // down to it: ask the chunk whether it has children.
-constexpr int leafLevel(const PlanetShape& shape) {
+constexpr int deepestLevelOf(const PlanetShape& shape) {
     return shape.faceCellsLog2 - shape.chunkCellsLog2;
 }
 constexpr std::uint64_t chunkCellCount(const PlanetShape& shape) {
@@ -61,7 +61,7 @@ constexpr std::uint64_t sampleCountOf(const PlanetShape& shape) {
     return faceCount * cells * cells + 2;
 }
 constexpr std::uint64_t chunkCountOf(const PlanetShape& shape) {
-    return faceCount * ((std::uint64_t{1} << (2 * (leafLevel(shape) + 1))) - 1) / 3;
+    return faceCount * ((std::uint64_t{1} << (2 * (deepestLevelOf(shape) + 1))) - 1) / 3;
 }
 // Returns the number of leaves of a tree of any shape: a chunk with children takes the place of one leaf and
 // adds four.

@@ -51,7 +51,7 @@ Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const C
             fmt::format("chunk {}: heights: steps {} to {} are out of range; expected its extremes, [{}, {}]",
                         name, *lowest, *highest, data.minStep, data.maxStep));
     }
-    if (id.level >= leafLevel(shape) && data.children.exists()) {
+    if (id.level >= deepestLevelOf(shape) && data.children.exists()) {
         return badInput(fmt::format("chunk {}: has children below the finest level; expected none", name));
     }
     return {};
@@ -60,7 +60,7 @@ Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const C
 // Returns A_l + A_l+1 + ... down to the parents of the deepest leaves that the shape allows.
 double curvatureErrorsM(const PlanetShape& shape, int fromLevel) {
     double sum = 0;
-    for (int level = fromLevel; level < leafLevel(shape); ++level) sum += curvatureErrorM(shape, level);
+    for (int level = fromLevel; level < deepestLevelOf(shape); ++level) sum += curvatureErrorM(shape, level);
     return sum;
 }
 

@@ -125,7 +125,7 @@ void copyChunks(const ChunkFile& file) {
     require(earlier && earlier->difference().empty(), "a file is like itself");
     const BakeContext bake{source, shape, 1};
     BakeScratch scratch;
-    BakeWalk walk(source, shape, leafLevel(shape) - tileLevelOf(shape, {}), &*earlier);
+    BakeWalk walk(source, shape, deepestLevelOf(shape) - tileLevelOf(shape, {}), &*earlier);
     std::uint64_t cells = 0;
     while (const auto step = walk.next()) {
         const auto made = runStep(bake, &*earlier, *step, scratch);

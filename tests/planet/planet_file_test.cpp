@@ -56,7 +56,7 @@ TEST_F(PlanetFile, everyBlockOfABakeLoadsWhenAllIsWanted) {
     LodSettings all = suddenLod(1e-9);
     all.frustumCulling = all.horizonCulling = false;
     ASSERT_TRUE((*planet)->settle(overHills(), all, ignoreUpload, 120));
-    EXPECT_EQ((*planet)->selection().draw.size(), 6u << (2 * leafLevel((*planet)->tree().shape)));
+    EXPECT_EQ((*planet)->selection().draw.size(), 6u << (2 * deepestLevelOf((*planet)->tree().shape)));
     EXPECT_EQ((*planet)->paging()[BlockKind::Heights].failed, 0u);
     // Everything but the header and the roots was read, and nothing twice.
     EXPECT_LT((*planet)->paging()[BlockKind::Heights].bytesRead, std::filesystem::file_size(path_));
@@ -83,7 +83,7 @@ TEST_F(PlanetFile, damagedBlockIsReportedAndDrawnAsItsParent) {
     std::size_t drawnAsParent = 0;
     for (const DrawItem& item : (*planet)->selection().draw) drawnAsParent += item.id == (*children)[3].id;
     EXPECT_EQ(drawnAsParent, 1u);
-    const std::size_t leaves = std::size_t{6} << (2 * leafLevel((*planet)->tree().shape));
+    const std::size_t leaves = std::size_t{6} << (2 * deepestLevelOf((*planet)->tree().shape));
     EXPECT_EQ((*planet)->selection().draw.size(), leaves - leaves / 24 + 1);
 }
 

@@ -65,7 +65,7 @@ TrueErrorReport measured(const DrawnSnapshot& snapshot) {
 
 TEST(SparsePlanet, hasLeavesOnSeveralLevels) {
     const ChunkFileInfo& info = sparsePlanet().file->info();
-    EXPECT_EQ(leafLevel(info.shape), 9);
+    EXPECT_EQ(deepestLevelOf(info.shape), 9);
     EXPECT_EQ(info.coarsestLeafLevel, 5);
     EXPECT_EQ(wholeTree().residentChunks, info.chunks);
     EXPECT_TRUE(isSparse(wholeTree()));

@@ -119,7 +119,7 @@ TEST(Audit, FindsErrorsThatAFileBelittlesAndEndsWithOne) {
     bakePlanet(folder);
     const std::filesystem::path path = folder.path() / "planet.chk";
     const planet::ChunkFile chunks = planet::ChunkFile::open(path).value();
-    ASSERT_EQ(planet::leafLevel(chunks.info().shape), 3);
+    ASSERT_EQ(planet::deepestLevelOf(chunks.info().shape), 3);
     std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
     const planet::ChunkData root = chunks.readRoot(planet::Face::PosY).value();
     const auto level1 = chunks.readChildren(root.id, root.children, root.heights).value();

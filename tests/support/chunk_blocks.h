@@ -35,7 +35,7 @@ template <class Visit>
 void forEachBlock(std::span<const std::byte> file, const ChunkFileInfo& info, std::size_t most,
                   const Visit& visit) {
     std::vector<FileBlock> open;
-    const int leaf = leafLevel(info.shape);
+    const int leaf = deepestLevelOf(info.shape);
     // The index of a block of heights; empty if it is not valid.
     const auto indexOf = [&](const BlockId& id, bool isRoot, const BlockLocation& at) {
         const auto bytes = file.subspan(static_cast<std::size_t>(at.offset), at.size - checksumBytes);

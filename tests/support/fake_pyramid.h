@@ -138,7 +138,7 @@ inline double finestDistanceM(const FaceGrid& grid, int firstColumn, int firstRo
 
 inline ChunkData cutChunk(const PlanetShape& shape, const FaceGrid& grid, const ChunkId& id) {
     const int cells = chunkCells(shape);
-    const int stride = 1 << (leafLevel(shape) - id.level);
+    const int stride = 1 << (deepestLevelOf(shape) - id.level);
     const int firstColumn = static_cast<int>(id.x) * cells * stride;
     const int firstRow = static_cast<int>(id.y) * cells * stride;
     ChunkData data;

@@ -14,7 +14,7 @@ namespace planet {
 
 // Everything resident.
 inline const ChunkTree& wholeTree() {
-    static const ChunkTree tree = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
+    static const ChunkTree tree = residentTree(fakePyramid(), deepestLevelOf(fakePyramid().shape));
     return tree;
 }
 

@@ -49,7 +49,7 @@ struct MadeChunks {
         const auto [low, high] = std::minmax_element(data.heights.begin(), data.heights.end());
         data.minStep = *low;
         data.maxStep = *high;
-        if (id.level < leafLevel(shape)) {
+        if (id.level < deepestLevelOf(shape)) {
             data.children = {keyOf(id) + 1, 100};
             data.minStep = lowest;
             data.maxStep = highest;

@@ -19,7 +19,7 @@ using namespace planet;
 ChunkData chunkOf(const PlanetShape& shape, const ChunkId& id) {
     ChunkData chunk;
     chunk.id = id;
-    const bool leaf = id.level == leafLevel(shape);
+    const bool leaf = id.level == deepestLevelOf(shape);
     chunk.deltaCM = leaf ? 0.0f : static_cast<float>(60000 * std::pow(0.4, id.level));
     chunk.deltaTightM = 0.6f * chunk.deltaCM;
     chunk.minStep = -500;

@@ -83,13 +83,13 @@ Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deep
         }
         case ColourBy::LeafDepth: {
             std::vector<LegendEntry> entries =
-                levelEntries(static_cast<std::uint32_t>(planet::leafLevel(facts.shape)));
+                levelEntries(static_cast<std::uint32_t>(planet::deepestLevelOf(facts.shape)));
             entries.push_back({unmeasuredColour, "not read yet"});
             return {"Deepest leaf", entries};
         }
         case ColourBy::Spacing: {
             std::vector<LegendEntry> entries = rampEntries([&](double share) {
-                return deltaText(leafSpacingM(facts.shape, share * planet::leafLevel(facts.shape)));
+                return deltaText(leafSpacingM(facts.shape, share * planet::deepestLevelOf(facts.shape)));
             });
             entries.push_back({unmeasuredColour, "not read yet"});
             return {"Sample spacing", entries};

@@ -107,7 +107,7 @@ TEST(OverlayColours, TintsStandInTheDrawListsOrderAndMeanWhatTheLegendSays) {
 TEST(OverlayColours, LeafDepthAndSpacingAreThoseOfTheDeepestLeaf) {
     const auto planet = settledPlanet();
     const planet::Selection& selection = planet->selection();
-    const int deepest = planet::leafLevel(planet->tree().shape);
+    const int deepest = planet::deepestLevelOf(planet->tree().shape);
     // A dense planet, one of whose chunks is said to have shallower leaves.
     const planet::DrawItem* coarse = nullptr;
     for (const planet::DrawItem& item : selection.draw) {

@@ -29,7 +29,7 @@ using ::tests::TemporaryFolder;
 void visitAll(const ChunkFile& file, const ChunkData& chunk,
               const std::function<void(const ChunkData&)>& visit) {
     visit(chunk);
-    if (chunk.id.level == leafLevel(file.info().shape)) return;
+    if (chunk.id.level == deepestLevelOf(file.info().shape)) return;
     const auto children = file.readChildren(chunk.id, chunk.children, chunk.heights);
     ASSERT_TRUE(children) << children.error().message;
     for (const ChunkData& child : *children) visitAll(file, child, visit);
@@ -158,7 +158,7 @@ TEST(Bake, deltaBoundsTheDistanceToTheFinestSurfaceEverywhere) {
         for (int trial = 0; trial < 300; ++trial) {
             std::vector<ChunkData> chain = {*file->readRoot(face)};
             std::vector<std::pair<double, double>> places = {{any(random), any(random)}};
-            while (chain.back().id.level < leafLevel(shape)) {
+            while (chain.back().id.level < deepestLevelOf(shape)) {
                 auto [x, y] = places.back();
                 const int quadrant =
                     (x >= chunkCells(shape) / 2.0 ? 1 : 0) + (y >= chunkCells(shape) / 2.0 ? 2 : 0);

@@ -85,7 +85,7 @@ double farthestSampleM(const BakedTree& baked, const ChunkData& chunk) {
 TEST(SparseBake, refinesWhereTheSourceIsFineAndNowhereElse) {
     const HeightSource source = test::sparseHills(2048);
     const BakedTree baked(source, {.chunkSize = 17});
-    EXPECT_EQ(leafLevel(baked.shape), 7);
+    EXPECT_EQ(deepestLevelOf(baked.shape), 7);
     std::uint64_t leaves = 0;
     for (const auto& [id, chunk] : baked.chunks) {
         const bool fine = id.level < 7 && source.finestCells(id) > (16 << id.level);
@@ -154,7 +154,7 @@ TEST(SparseBake, hasTheHeightsAndDecisionsOfADenseBakeWhereBothHaveAChunk) {
         ASSERT_LE(chunk.deltaTightM, other.deltaTightM * (1 + 1e-6f)) << toString(id);
         bool complete = chunk.children.exists();
         forEachLeaf(sparse.chunks, id, [&](const ChunkData& leaf) {
-            complete = complete && leaf.id.level == leafLevel(dense.shape);
+            complete = complete && leaf.id.level == deepestLevelOf(dense.shape);
         });
         if (!complete) continue;
         ++whole;
@@ -284,7 +284,7 @@ TEST(SparseBake, samplesTheFinePlacesAndTheCoarsePlanetWithOneFilter) {
     const HeightSource source =
         watched.watch(test::sparse(flat, {test::boxAround({0.3, 0.2, 1}, 0.0002, cells)}), cells);
     const BakedTree baked(source, {.chunkSize = 33});
-    EXPECT_EQ(leafLevel(baked.shape), 12);
+    EXPECT_EQ(deepestLevelOf(baked.shape), 12);
     EXPECT_EQ(watched.otherFilters, 0);
     // Each leaf has 33^2 samples; a few units share some.
     EXPECT_LE(watched.samples, leafCountOf(baked.info.chunks) * 33 * 33);

@@ -60,12 +60,12 @@ HeightSource roughSource(int faceSize) {
 double bruteForceM(const Baked& baked, const ChunkData& chunk) {
     const PlanetShape& shape = baked.shape;
     const int cells = chunkCells(shape);
-    const int levels = leafLevel(shape) - chunk.id.level;
+    const int levels = deepestLevelOf(shape) - chunk.id.level;
     const DrawnGrid drawn = unmorphed(shape, chunk);
     double most = 0;
     for (std::uint32_t leafY = 0; leafY < 1u << levels; ++leafY) {
         for (std::uint32_t leafX = 0; leafX < 1u << levels; ++leafX) {
-            const ChunkId id{chunk.id.face, static_cast<std::uint8_t>(leafLevel(shape)),
+            const ChunkId id{chunk.id.face, static_cast<std::uint8_t>(deepestLevelOf(shape)),
                              (chunk.id.x << levels) + leafX, (chunk.id.y << levels) + leafY};
             const DrawnGrid leaf = unmorphed(shape, baked.chunks.at(id));
             for (int j = 0; j <= cells; ++j) {
@@ -95,7 +95,7 @@ TEST_P(TightMetricOfChunkSize, IsTheFarthestThatAnyFinestSampleLiesOffOrAChildsI
     const Baked baked(roughSource(129), {.chunkSize = GetParam(), .radiusM = 60e3});
     int clearlyLess = 0;
     for (const auto& [id, chunk] : baked.chunks) {
-        if (id.level == leafLevel(baked.shape)) {
+        if (id.level == deepestLevelOf(baked.shape)) {
             EXPECT_EQ(chunk.deltaTightM, 0);
             continue;
         }
@@ -116,7 +116,7 @@ TEST(TightMetric, OfABareSphereIsWhatItsCurvatureAloneGives) {
     const auto flat = test::formulaSource([](const glm::dvec3&) { return 0.0; }, 0, 1, 1, 129);
     const Baked baked(flat, {.chunkSize = 17});
     for (const auto& [id, chunk] : baked.chunks) {
-        if (id.level == leafLevel(baked.shape)) continue;
+        if (id.level == deepestLevelOf(baked.shape)) continue;
         const double own = bruteForceM(baked, chunk);
         EXPECT_NEAR(chunk.deltaTightM, own, 1e-6 * own) << toString(id);
         // A cell's diagonal is half as bent on each level, so each adds a quarter of the one above at most.
@@ -145,7 +145,7 @@ TEST(TightMetric, FindsABumpOfKnownHeightOnEveryChunkThatLacksItsSample) {
         const Baked baked(bumpSource(Face::NegY, column, row, bumpM), {.chunkSize = 17, .radiusM = 100e3});
         int found = 0;
         for (const auto& [id, chunk] : baked.chunks) {
-            const int stride = 1 << (leafLevel(baked.shape) - id.level);
+            const int stride = 1 << (deepestLevelOf(baked.shape) - id.level);
             const int wide = chunkCells(baked.shape) * stride;
             const bool covers = id.face == Face::NegY && static_cast<int>(id.x) == column / wide &&
                                 static_cast<int>(id.y) == row / wide;
@@ -218,7 +218,7 @@ TEST(TightMetric, SearchedForInThePyramidIsTheSameOnEveryLevel) {
     const Baked baked(roughSource(129), {.chunkSize = 17, .radiusM = 60e3});
     int reads = 0;
     for (const auto& [id, chunk] : baked.chunks) {
-        if (id.level == leafLevel(baked.shape)) continue;
+        if (id.level == deepestLevelOf(baked.shape)) continue;
         const auto searched = searchFinestDistance(baked.shape, chunk, readChildrenOf(baked, reads));
         ASSERT_TRUE(searched);
         ASSERT_NEAR(*searched, bruteForceM(baked, chunk), 1e-6) << toString(id);
@@ -232,7 +232,7 @@ TEST(TightMetric, SearchLeavesOutWhatCannotHoldTheFarthestSample) {
     const auto searched = searchFinestDistance(baked.shape, root, readChildrenOf(baked, reads));
     ASSERT_TRUE(searched);
     EXPECT_NEAR(*searched, 20'000, 0.02 * 20'000);
-    EXPECT_EQ(reads, leafLevel(baked.shape));  // straight down to it, of 21 blocks
+    EXPECT_EQ(reads, deepestLevelOf(baked.shape));  // straight down to it, of 21 blocks
 }
 
 TEST(TightMetric, SearchStopsWhenToldToAndHandsErrorsOn) {

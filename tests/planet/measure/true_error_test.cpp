@@ -88,13 +88,13 @@ Direct directly(const DrawnSnapshot& snapshot, std::size_t item) {
     const ChunkId& id = snapshot.items[item].id;
     const DrawnGrid grid =
         drawnGrid(snapshot.shape, snapshot.items[item], *snapshot.chunks[item].heights, snapshot.stitched);
-    const int perCell = 1 << (leafLevel(pyramid.shape) - id.level);
+    const int perCell = 1 << (deepestLevelOf(pyramid.shape) - id.level);
     const int cells = chunkCells(pyramid.shape);
     for (int y = 0; y <= cells * perCell; ++y) {
         for (int x = 0; x <= cells * perCell; ++x) {
             const int leafX = std::min(x / cells, perCell - 1);
             const int leafY = std::min(y / cells, perCell - 1);
-            const ChunkId leaf{id.face, static_cast<std::uint8_t>(leafLevel(pyramid.shape)),
+            const ChunkId leaf{id.face, static_cast<std::uint8_t>(deepestLevelOf(pyramid.shape)),
                                id.x * static_cast<unsigned>(perCell) + static_cast<unsigned>(leafX),
                                id.y * static_cast<unsigned>(perCell) + static_cast<unsigned>(leafY)};
             direct.compare(vertexM(snapshot.shape, pyramid.at(leaf), x - leafX * cells, y - leafY * cells),
@@ -208,7 +208,7 @@ TEST(TrueError, findsADeltaThatIsHalfOfWhatItShouldBe) {
     FakePyramid wrong = fakePyramid();
     wrong.chunks.at(tightest->id).deltaCM /= 2;
     wrong.chunks.at(tightest->id).deltaTightM /= 2;
-    const ChunkTree tree = residentTree(wrong, leafLevel(wrong.shape));
+    const ChunkTree tree = residentTree(wrong, deepestLevelOf(wrong.shape));
     const TrueErrorReport after = measured(drawnFrom(tree, levelView(), settings));
     EXPECT_EQ(after.violations, 1u);
     for (const ChunkError& chunk : after.chunks) {
@@ -238,13 +238,13 @@ void useTightMetric(ChunkTree& tree, NodeIndex node) {
     DrawItem item;
     item.id = chunk.id;
     const DrawnGrid grid = drawnGrid(tree.shape, item, *chunk.heights, false);
-    const int perCell = 1 << (leafLevel(tree.shape) - chunk.id.level);
+    const int perCell = 1 << (deepestLevelOf(tree.shape) - chunk.id.level);
     double largest = 0;
     for (int y = 0; y <= 16 * perCell; ++y) {
         for (int x = 0; x <= 16 * perCell; ++x) {
             const int leafX = std::min(x / 16, perCell - 1);
             const int leafY = std::min(y / 16, perCell - 1);
-            const ChunkId leaf{chunk.id.face, static_cast<std::uint8_t>(leafLevel(tree.shape)),
+            const ChunkId leaf{chunk.id.face, static_cast<std::uint8_t>(deepestLevelOf(tree.shape)),
                                chunk.id.x * static_cast<unsigned>(perCell) + static_cast<unsigned>(leafX),
                                chunk.id.y * static_cast<unsigned>(perCell) + static_cast<unsigned>(leafY)};
             const glm::dvec3 a = vertexM(tree.shape, fakePyramid().at(leaf), x - leafX * 16, y - leafY * 16);

@@ -738,7 +738,7 @@ ChunkTree deepTree(const std::vector<ChunkId>& deepest) {
         ChunkData data;
         data.id = id;
         data.deltaCM = static_cast<float>(std::ldexp(1e5, -id.level));
-        if (id.level < leafLevel(shape)) data.children = {keyOf(id) + 1, 100};
+        if (id.level < deepestLevelOf(shape)) data.children = {keyOf(id) + 1, 100};
         data.heights.assign(static_cast<std::size_t>(chunkVertexCount(shape)), 0);
         return data;
     };

@@ -58,9 +58,9 @@ TEST(ChunkTree, VisitsEachResidentNodeOnceAndParentsFirst) {
 }
 
 TEST(ChunkTree, LeavesHaveNoChildrenToAskFor) {
-    const ChunkTree tree = residentTree(fakePyramid(), leafLevel(fakePyramid().shape));
+    const ChunkTree tree = residentTree(fakePyramid(), deepestLevelOf(fakePyramid().shape));
     forEachNode(tree, [&](NodeIndex, const ChunkNode& node) {
-        const bool leaf = node.id.level == leafLevel(tree.shape);
+        const bool leaf = node.id.level == deepestLevelOf(tree.shape);
         EXPECT_EQ(node.childrenState, leaf ? ChildrenState::None : ChildrenState::Resident);
     });
 }
@@ -254,7 +254,7 @@ glm::dvec3 surfacePointM(const PlanetShape& shape, const ChunkData& chunk, doubl
 
 // The largest distance of the finest samples under a chunk from its surface at the same place.
 double measuredDeltaM(const FakePyramid& pyramid, const PlanetShape& shape, const ChunkData& chunk) {
-    const int levels = leafLevel(shape) - chunk.id.level;
+    const int levels = deepestLevelOf(shape) - chunk.id.level;
     const int cells = chunkCells(shape);
     double most = 0;
     for (std::uint32_t leafY = 0; leafY < 1u << levels; ++leafY) {
@@ -292,7 +292,8 @@ TEST(ChunkTree, ExaggeratedDeltaBoundsWhatIsMeasured) {
             ASSERT_LE(measured, node.deltaCM * (1 + 1e-6)) << factor << ' ' << toString(node.id);
             ASSERT_LE(measured, node.deltaTightM * (1 + 1e-6)) << factor << ' ' << toString(node.id);
             ASSERT_LE(node.deltaTightM, node.deltaCM);
-            if (node.id.level < leafLevel(tree.shape)) tightest = std::max(tightest, measured / node.deltaCM);
+            if (node.id.level < deepestLevelOf(tree.shape))
+                tightest = std::max(tightest, measured / node.deltaCM);
             needsMoreThanScaling += measured > 1.01 * factor * node.storedDeltaCM;
         }
         EXPECT_GT(tightest, 0.4) << factor;

@@ -312,11 +312,11 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
              "Estimated time on this machine with these threads and no other load.");
     valueRow("Chunks", value([](const Estimate& e) {
                  return fmt::format("{} on {} levels", countText(static_cast<double>(e.chunks)),
-                                    planet::leafLevel(e.shape) + 1);
+                                    planet::deepestLevelOf(e.shape) + 1);
              }),
              "Number of chunks in all levels.");
     valueRow("Samples", value([](const Estimate& e) {
-                 const bool sparse = e.coarsestLeafLevel < planet::leafLevel(e.shape);
+                 const bool sparse = e.coarsestLeafLevel < planet::deepestLevelOf(e.shape);
                  return fmt::format("{}, {}{} per face side", countText(static_cast<double>(e.samples)),
                                     sparse ? "up to " : "", planet::faceCells(e.shape) + 1);
              }),

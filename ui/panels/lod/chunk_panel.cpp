@@ -48,7 +48,7 @@ void idField(const EditorView& view, ChunkPanelState& state, Commands& commands)
         "Chunk id: face, level (0 is the whole face), and x and y from the face's south-west corner, each in "
         "[0, 2^level - 1]. Press Enter to select it.");
     if (entered) {
-        state.problem = chunkIdProblem(state.idText.data(), leafLevel(view.planet->tree().shape));
+        state.problem = chunkIdProblem(state.idText.data(), deepestLevelOf(view.planet->tree().shape));
         if (state.problem.empty())
             commands.emplace_back(SelectChunk{planet::chunkIdFromString(state.idText.data())});
     }
@@ -120,7 +120,7 @@ void placeRows(const EditorView& view, const ChunkExplanation& explanation, cons
     const planet::PlanetShape& shape = view.planet->tree().shape;
     const ChunkId& id = explanation.id;
     if (!beginValues("place")) return;
-    valueRow("Level", fmt::format("{} of {}", id.level, leafLevel(shape)),
+    valueRow("Level", fmt::format("{} of {}", id.level, deepestLevelOf(shape)),
              "Level 0 is the whole face. Each level halves the chunk side and doubles the sample density. "
              "The last level holds the finest samples.");
     valueRow("Centre", middlePlaceText(id), "Latitude and longitude of the chunk's centre.");

@@ -49,7 +49,7 @@ Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, cons
     OverlaySettings asked = overlay;
     asked.colourBy = same[static_cast<std::size_t>(state.colourBy)];
     Legend legend = legendOf(asked, view.planet->views()[0].input.lod.tauPx,
-                             static_cast<std::uint32_t>(leafLevel(view.planet->tree().shape)));
+                             static_cast<std::uint32_t>(deepestLevelOf(view.planet->tree().shape)));
     if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // uses delta_c's scale
     return legend;
 }

@@ -84,7 +84,7 @@ protected:
 };
 
 TEST_F(VertexShader, IsWithinAMillimetreOfDoublesAtEveryLevel) {
-    for (int level = 0; level <= leafLevel(shape_); ++level) {
+    for (int level = 0; level <= deepestLevelOf(shape_); ++level) {
         for (const Face face : allFaces) {
             // The middle (of two faces a pole), an edge, a corner, close to an edge, and somewhere.
             for (const auto& [u, v] :
@@ -134,7 +134,7 @@ TEST_F(VertexShader, AgreesWithItsMirrorOnTheCpu) {
 TEST_F(VertexShader, VerticesThatLevelsShareAreTheSameToTheLastBit) {
     const FacePoint place{Face::PosZ, 0.123, -0.456};
     const std::vector<std::int16_t> flatHeights(static_cast<std::size_t>(chunkVertexCount(shape_)), 1234);
-    for (int level = 2; level < leafLevel(shape_); level += 3) {
+    for (int level = 2; level < deepestLevelOf(shape_); level += 3) {
         std::array<DrawItem, 2> items;
         items[0].id = chunkAt(place, level);
         items[1].id = childOf(items[0].id, 0);
