@@ -71,16 +71,27 @@ Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& setting
     return set;
 }
 
+// A data set with its source, which is open if it has to be baked. Opening it may read all of its samples.
+struct CheckedData {
+    DataSet set;
+    std::optional<planet::HeightSource> source;
+};
+
 // Reports bad data before a window opens.
-Result<void> checkDataSet(const DataSet& set) {
-    if (set.needsBake) return planet::openHeightSource(set.source, {}).map([](const auto&) {});
-    return planet::ChunkFile::open(set.chunkFile).map([](const auto&) {});
+Result<CheckedData> checked(const DataSet& set) {
+    if (set.needsBake) {
+        return planet::openHeightSource(set.source, {}).map([&](const planet::HeightSource& source) {
+            return CheckedData{set, source};
+        });
+    }
+    return planet::ChunkFile::open(set.chunkFile).map([&](const auto&) { return CheckedData{set, {}}; });
 }
 
-int runWindow(Window& window, const AppOptions& options, DataSet data, const OpenSettings& open, Log& log) {
-    window.setTitle(fmt::format("{} - Worldy", sourceName(data.source)));
+int runWindow(Window& window, const AppOptions& options, CheckedData data, const OpenSettings& open,
+              Log& log) {
+    window.setTitle(fmt::format("{} - Worldy", sourceName(data.set.source)));
     log->info("{}", window.openGlText());
-    Session session = startSession(std::move(data), options.shaderFolder, log);
+    Session session = startSession(std::move(data.set), options.shaderFolder, log, std::move(data.source));
     session.shaders.worker = window.makeShaderWorker();
     Editor editor(open.settings, log);
     editor.keepItemMap(options.itemMapFile);
@@ -101,28 +112,26 @@ int runWindow(Window& window, const AppOptions& options, DataSet data, const Ope
     return session.problem->kind == planet::ErrorKind::Cancelled ? exitCancelled : exitBadInput;
 }
 
-Result<void> bakeIfNeeded(const DataSet& data) {
-    if (!data.needsBake) return {};
+Result<void> bakeIfNeeded(const CheckedData& data) {
+    if (!data.source) return {};
     std::error_code status;
-    fs::create_directories(data.chunkFile.parent_path(), status);
-    return planet::openHeightSource(data.source, {})
-        .and_then([&](const planet::HeightSource& source) {
-            return bakeOnTerminal(source, data.settings, data.chunkFile, JobColour{data.bakedColour, true});
-        })
+    fs::create_directories(data.set.chunkFile.parent_path(), status);
+    return bakeOnTerminal(*data.source, data.set.settings, data.set.chunkFile,
+                          JobColour{data.set.bakedColour, true})
         .map([](const auto&) {});
 }
 
 // Writes the first view that the window would show. The file is beside the bakes, because Worldy overwrites
 // it every time and the current folder may be a source tree.
-Result<void> writeFirstView(const AppOptions& options, const DataSet& data, const Settings& settings) {
+Result<void> writeFirstView(const AppOptions& options, const CheckedData& data, const Settings& settings) {
     if (Result<void> baked = bakeIfNeeded(data); !baked) return baked;
     ShotOptions shot;
-    shot.file = data.chunkFile;
+    shot.file = data.set.chunkFile;
     shot.output = cacheFolder() / "worldy-first-view.png";
     std::error_code status;
     fs::create_directories(shot.output.parent_path(), status);
     shot.shaderFolder = options.shaderFolder;
-    shot.colourImage = data.colourImage;
+    shot.colourImage = data.set.colourImage;
     shot.size = {settings.windowWidthPx, settings.windowHeightPx};
     shot.view = settings.view;
     if (settings.camera.altitudeM != 0) shot.camera = settings.camera;
@@ -135,9 +144,8 @@ int runApp(const AppOptions& options) {
     Log log;
     const Result<OpenSettings> open = openSettings(options, log);
     if (!open) return reportError(open.error());
-    const Result<DataSet> data = chosenDataSet(options, open->settings);
+    const Result<CheckedData> data = chosenDataSet(options, open->settings).and_then(checked);
     if (!data) return reportError(data.error());
-    if (const Result<void> good = checkDataSet(*data); !good) return reportError(good.error());
 
     std::error_code status;
     fs::create_directories(configFolder(), status);

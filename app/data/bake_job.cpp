@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "app/data/write_check.h"
+#include "planet/bake/bake_tile.h"
+#include "planet/bake/bake_tree.h"
 #include "planet/source/colour_source.h"
 #include "planet/source/height_source.h"
 
@@ -15,17 +17,16 @@ namespace {
 
 using planet::Result;
 
-Result<planet::BakeEstimate> estimate(const std::filesystem::path& source,
-                                      const planet::HeightSourceSettings& sourceSettings,
-                                      const planet::BakeSettings& settings,
-                                      const std::filesystem::path& colour,
-                                      const std::function<bool()>& goOn) {
-    const Result<planet::HeightSource> heights = planet::openHeightSource(source, sourceSettings);
+Result<planet::BakeEstimate> estimate(const BakeRequest& request, const std::stop_token& stop) {
+    planet::HeightSourceSettings sourceSettings = request.sourceSettings;
+    sourceSettings.stop = stop;
+    const auto goOn = [&] { return !stop.stop_requested(); };
+    const Result<planet::HeightSource> heights = planet::openHeightSource(request.source, sourceSettings);
     if (!heights) return tl::unexpected(heights.error());
-    if (colour.empty()) return planet::estimateBake(*heights, settings, goOn);
-    const Result<planet::ColourSource> colours = planet::openColourSource(colour);
+    if (request.colour.empty()) return planet::estimateBake(*heights, request.settings, goOn);
+    const Result<planet::ColourSource> colours = planet::openColourSource(request.colour);
     if (!colours) return tl::unexpected(colours.error());
-    return planet::estimateBake(*heights, settings, goOn, &*colours);
+    return planet::estimateBake(*heights, request.settings, goOn, &*colours);
 }
 
 // Returns the source with a sampling function that keeps the source's first Error, to tell it from the bake's
@@ -40,6 +41,15 @@ planet::ColourSource watched(const planet::ColourSource& source, std::mutex& mut
         return sampled;
     };
     return same;
+}
+
+// Returns whether a bake has so many samples that a first look is worth its time.
+bool takesLong(const planet::HeightSource& heights, const planet::BakeSettings& settings,
+               const std::function<bool()>& goOn) {
+    const Result<planet::PlanetShape> shape = planet::chooseShape(heights, settings);
+    if (!shape) return false;
+    const std::optional<planet::TreeCount> count = planet::countTree(heights, *shape, goOn);
+    return count && count->leafCells > mostWithoutFirstLook;
 }
 
 }  // namespace
@@ -64,41 +74,55 @@ Result<planet::BakeReport> bakeWithColour(const planet::HeightSource& heights,
     return report;
 }
 
-BakeJob::BakeJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
-                 planet::BakeSettings settings, std::filesystem::path output, JobColour colour)
-    : job_([this, source = std::move(source), sourceSettings = std::move(sourceSettings),
-            settings = std::move(settings), output = std::move(output),
-            colour = std::move(colour)](const std::stop_token& stop) {
-          return run(stop, source, sourceSettings, settings, output, colour);
-      }) {}
+BakeJob::BakeJob(BakeTask task)
+    : job_([this, task = std::move(task)](const std::stop_token& stop) { return run(stop, task); }) {}
 
-Result<planet::BakeReport> BakeJob::run(const std::stop_token& stop, const std::filesystem::path& source,
-                                        const planet::HeightSourceSettings& sourceSettings,
-                                        const planet::BakeSettings& settings,
-                                        const std::filesystem::path& output, const JobColour& colour) {
+Result<planet::BakeReport> BakeJob::run(const std::stop_token& stop, BakeTask task) {
+    CommandFiles files;
+    addSource(files, task.source);
+    addSource(files, task.colour.image);
+    files.outputs = {{task.output, OutputKind::ChunkFile}};
+    if (task.firstLook) files.outputs.push_back({task.firstLook->output, OutputKind::ChunkFile});
+    task.sourceSettings.stop = stop;
+    const auto opened = [&]() -> Result<planet::HeightSource> {
+        if (task.opened) return *task.opened;
+        return planet::openHeightSource(task.source, task.sourceSettings);
+    };
+    return checkNotInputs(files).and_then(opened).and_then(
+        [&](const planet::HeightSource& heights) { return bakeOpened(stop, task, heights); });
+}
+
+Result<planet::BakeReport> BakeJob::bakeOpened(const std::stop_token& stop, const BakeTask& task,
+                                               const planet::HeightSource& heights) {
+    {
+        const std::lock_guard lock(mutex_);
+        layers_ = heights.layers;
+    }
+    std::string colourProblem;
+    const auto goOn = [&] { return !stop.stop_requested(); };
+    if (task.firstLook && takesLong(heights, task.settings, goOn)) {
+        const auto onFirst = [&](const planet::BakeProgress&) { return goOn(); };
+        const Result<planet::BakeReport> first = bakeWithColour(
+            heights, task.firstLook->settings, task.firstLook->output, onFirst, task.colour, colourProblem);
+        // What is wrong with the first look is wrong with the whole bake too, which then says so.
+        const std::lock_guard lock(mutex_);
+        firstLookIsBaked_ = first.has_value();
+    }
     const auto onProgress = [&](const planet::BakeProgress& progress) {
         const std::lock_guard lock(mutex_);
         progress_ = progress;
-        return !stop.stop_requested();
+        return goOn();
     };
-    std::string colourProblem;
-    CommandFiles files;
-    addSource(files, source);
-    addSource(files, colour.image);
-    files.outputs = {{output, OutputKind::ChunkFile}};
     Result<planet::BakeReport> result =
-        checkNotInputs(files)
-            .and_then([&] { return planet::openHeightSource(source, sourceSettings); })
-            .and_then([&](const planet::HeightSource& heights) {
-                {
-                    const std::lock_guard lock(mutex_);
-                    layers_ = heights.layers;
-                }
-                return bakeWithColour(heights, settings, output, onProgress, colour, colourProblem);
-            });
+        bakeWithColour(heights, task.settings, task.output, onProgress, task.colour, colourProblem);
     const std::lock_guard lock(mutex_);
     colourProblem_ = std::move(colourProblem);
     return result;
+}
+
+bool BakeJob::takeFirstLook() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(firstLookIsBaked_, false);
 }
 
 std::string BakeJob::colourProblem() const {
@@ -116,11 +140,7 @@ planet::BakeProgress BakeJob::progress() const {
     return progress_;
 }
 
-EstimateJob::EstimateJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
-                         planet::BakeSettings settings, std::filesystem::path colour)
-    : Job([source = std::move(source), sourceSettings = std::move(sourceSettings),
-           settings = std::move(settings), colour = std::move(colour)](const std::stop_token& stop) {
-          return estimate(source, sourceSettings, settings, colour, [&] { return !stop.stop_requested(); });
-      }) {}
+EstimateJob::EstimateJob(BakeRequest request)
+    : Job([request = std::move(request)](const std::stop_token& stop) { return estimate(request, stop); }) {}
 
 }  // namespace worldy

@@ -1,6 +1,7 @@
 // A bake and the estimate of a bake on threads of their own.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "app/base/job.h"
+#include "app/data/bake_request.h"
 #include "app/data/source_jobs.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/bake_estimate.h"
@@ -30,15 +32,35 @@ planet::Result<planet::BakeReport> bakeWithColour(const planet::HeightSource& he
                                                   const planet::BakeProgressCallback& goOn,
                                                   const JobColour& colour, std::string& colourProblem);
 
+// A coarse bake of a source, which is there long before the whole one.
+struct FirstLook {
+    planet::BakeSettings settings;
+    std::filesystem::path output;
+};
+
+struct BakeTask {
+    std::filesystem::path source;
+    planet::HeightSourceSettings sourceSettings{};
+    planet::BakeSettings settings{};
+    std::filesystem::path output;
+    JobColour colour{};
+    // Baked first. It is left out if the whole bake has so few samples that it is there as soon.
+    std::optional<FirstLook> firstLook{};
+    std::optional<planet::HeightSource>
+        opened{};  // the source, if it is open already; it is read anew otherwise
+};
+
+// Bakes of up to this many samples, which take a few seconds, have no first look.
+inline constexpr std::uint64_t mostWithoutFirstLook = 8'000'000;
+
 // All calls come from one thread. The destructor cancels and waits for the end of the bake.
 class BakeJob {
 public:
-    BakeJob(std::filesystem::path source, planet::BakeSettings settings, std::filesystem::path output)
-        : BakeJob(std::move(source), {}, std::move(settings), std::move(output)) {}
-    BakeJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
-            planet::BakeSettings settings, std::filesystem::path output, JobColour colour = {});
+    explicit BakeJob(BakeTask task);
 
     planet::BakeProgress progress() const;
+    // Returns true once, when the first look is baked.
+    bool takeFirstLook();
     void cancel() { job_.cancel(); }
     bool cancelling() const { return job_.cancelling(); }
     std::optional<planet::Result<planet::BakeReport>> takeResult() { return job_.takeResult(); }
@@ -48,12 +70,12 @@ public:
     SharedLayers layers() const;
 
 private:
-    planet::Result<planet::BakeReport> run(const std::stop_token& stop, const std::filesystem::path& source,
-                                           const planet::HeightSourceSettings& sourceSettings,
-                                           const planet::BakeSettings& settings,
-                                           const std::filesystem::path& output, const JobColour& colour);
+    planet::Result<planet::BakeReport> run(const std::stop_token& stop, BakeTask task);
+    planet::Result<planet::BakeReport> bakeOpened(const std::stop_token& stop, const BakeTask& task,
+                                                  const planet::HeightSource& heights);
 
     mutable std::mutex mutex_;
+    bool firstLookIsBaked_ = false;                // guarded by mutex_
     planet::BakeProgress progress_;                // guarded by mutex_
     std::string colourProblem_;                    // guarded by mutex_
     SharedLayers layers_;                          // guarded by mutex_
@@ -62,8 +84,7 @@ private:
 
 class EstimateJob : public Job<planet::Result<planet::BakeEstimate>> {
 public:
-    EstimateJob(std::filesystem::path source, planet::HeightSourceSettings sourceSettings,
-                planet::BakeSettings settings, std::filesystem::path colour = {});
+    explicit EstimateJob(BakeRequest request);
 };
 
 }  // namespace worldy

@@ -143,12 +143,25 @@ fs::path earlierBakeOf(const fs::path& source, const planet::BakeSettings& setti
     if (found.size() > mostOpened) found.resize(mostOpened);
     const auto fits = [&](const auto& each) {
         const planet::Result<planet::ChunkFile> file = planet::ChunkFile::open(each.second);
+        // Nothing is gained by copying a first look.
         return file && file->info().hasSourceRecord &&
+               planet::faceCells(file->info().shape) + 1 != firstLookFaceSize &&
                planet::chunkSize(file->info().shape) == settings.chunkSize &&
                file->info().shape.radiusM == settings.radiusM;
     };
     const auto newest = std::ranges::find_if(found, fits);
     return newest == found.end() ? fs::path() : newest->second;
+}
+
+DataSet firstLookOf(const DataSet& whole, const planet::HeightSourceSettings& sourceSettings) {
+    DataSet look = whole;
+    look.settings.faceSize = firstLookFaceSize;
+    look.settings.colour.faceSize = firstLookFaceSize;
+    look.settings.debugLevelsFolder.clear();
+    look.settings.reuse.clear();
+    look.chunkFile = cachedBakeOf(look.source, look.settings, sourceSettings, look.bakedColour);
+    look.needsBake = !opensWhole(look.chunkFile);
+    return look;
 }
 
 planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSettings& settings,

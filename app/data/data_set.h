@@ -46,6 +46,11 @@ std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const pl
                                    const planet::HeightSourceSettings& sourceSettings = {},
                                    const std::filesystem::path& colour = {});
 
+// The face size of a first look, a coarse bake that is shown until the whole one is there.
+inline constexpr int firstLookFaceSize = 513;
+// Returns the first look at a data set that needs a bake, in the cache too.
+DataSet firstLookOf(const DataSet& whole, const planet::HeightSourceSettings& sourceSettings = {});
+
 // Returns the newest bake in the cache of a source of this name with the same chunk size and radius that says what it was
 // baked from, so that a bake of the changed source can copy from it; empty if there is none.
 std::filesystem::path earlierBakeOf(const std::filesystem::path& source,

@@ -6,9 +6,10 @@ namespace worldy {
 
 SourceJob::SourceJob(std::filesystem::path source, planet::HeightSourceSettings settings)
     : Job([source = std::move(source),
-           settings = std::move(settings)](const std::stop_token&) -> planet::Result<SharedLayers> {
+           settings = std::move(settings)](const std::stop_token& stop) -> planet::Result<SharedLayers> {
           planet::HeightSourceSettings tolerant = settings;
           tolerant.skipBroken = true;
+          tolerant.stop = stop;
           return planet::openHeightSource(source, tolerant).map([](const planet::HeightSource& opened) {
               return opened.layers;
           });

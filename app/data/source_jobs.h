@@ -16,8 +16,7 @@ namespace worldy {
 
 using SharedLayers = std::shared_ptr<const planet::SourceLayers>;
 
-// Opens a source for its layers. A broken file is left out and listed, so that the other layers can be seen. Cancelling
-// does not stop it.
+// Opens a source for its layers. A broken file is left out and listed, so that the other layers can be seen.
 class SourceJob : public Job<planet::Result<SharedLayers>> {
 public:
     SourceJob(std::filesystem::path source, planet::HeightSourceSettings settings);

@@ -148,25 +148,14 @@ Result<PreviewPicture> drawPreview(const planet::HeightSource& source, const Pre
 }
 
 PreviewJob::PreviewJob(PreviewRequest request)
-    : thread_([this, request = std::move(request)] {
-          const auto goOn = [this] { return !cancelled_.load(); };
-          Result<PreviewPicture> result = planet::openHeightSource(request.source, request.sourceSettings)
-                                              .and_then([&](const planet::HeightSource& source) {
-                                                  return drawPreview(source, request, goOn);
-                                              });
-          const std::lock_guard lock(mutex_);
-          result_ = std::move(result);
+    : Job([request = std::move(request)](const std::stop_token& stop) {
+          planet::HeightSourceSettings settings = request.sourceSettings;
+          settings.stop = stop;
+          return planet::openHeightSource(request.source, settings)
+              .and_then([&](const planet::HeightSource& source) {
+                  return drawPreview(source, request, [&] { return !stop.stop_requested(); });
+              });
       }) {}
-
-PreviewJob::~PreviewJob() {
-    cancel();
-    thread_.join();
-}
-
-std::optional<Result<PreviewPicture>> PreviewJob::takeResult() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(result_, std::nullopt);
-}
 
 void requestPreview(SourcePreviewer& previewer, const PreviewRequest& request) {
     previewer.next = request;

@@ -1,16 +1,14 @@
 // Draws previews of a source before it is baked, on a thread of its own.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "app/base/job.h"
 #include "app/data/bake_request.h"
 #include "planet/base/result.h"
 #include "planet/gl/device/gl_objects.h"
@@ -38,22 +36,9 @@ planet::Result<PreviewPicture> drawPreview(const planet::HeightSource& source, c
                                            const std::function<bool()>& goOn = {});
 
 // Opens the source and draws it. All calls come from one thread.
-class PreviewJob {
+class PreviewJob : public Job<planet::Result<PreviewPicture>> {
 public:
     explicit PreviewJob(PreviewRequest request);
-    ~PreviewJob();  // cancels and waits for the thread
-    PreviewJob(const PreviewJob&) = delete;
-    PreviewJob& operator=(const PreviewJob&) = delete;
-
-    void cancel() { cancelled_ = true; }
-    // Returns the result once, when it is there.
-    std::optional<planet::Result<PreviewPicture>> takeResult();
-
-private:
-    std::mutex mutex_;
-    std::optional<planet::Result<PreviewPicture>> result_;  // guarded by mutex_
-    std::atomic<bool> cancelled_{false};
-    std::thread thread_;
 };
 
 // Draws one picture at a time; a newer request replaces a waiting one. All calls come from the thread of the

@@ -31,12 +31,12 @@ planet::WorldLayer layerOfFiles(std::span<const fs::path> files) {
 }
 
 // Returns the layers of a source that is no world file: one, or detail over those of its source.
-Result<std::vector<EditedLayer>> layersOf(const fs::path& source) {
-    if (!planet::isTerrainText(source)) return std::vector<EditedLayer>{{layerOfFiles({&source, 1})}};
+Result<std::vector<planet::WorldLayer>> layersOf(const fs::path& source) {
+    if (!planet::isTerrainText(source)) return std::vector{layerOfFiles({&source, 1})};
     const Result<planet::TerrainSource> terrain = planet::terrainFromText(source);
     if (!terrain) return tl::unexpected(terrain.error());
     planet::WorldLayer layer;
-    std::vector<EditedLayer> layers;
+    std::vector<planet::WorldLayer> layers;
     if (terrain->of.empty()) {
         layer.terrain = source.string();
     } else {
@@ -50,12 +50,16 @@ Result<std::vector<EditedLayer>> layersOf(const fs::path& source) {
         layer.detail = text;
     }
     layer.name = planet::defaultNameOf(layer);
-    layers.push_back({layer});
+    layers.push_back(layer);
     return layers;
 }
 
-std::string textOf(const WorldEdit& edit, const fs::path& folder) {
-    return planet::worldText(editedWorld(edit), folder);
+// Returns the world without the layers that are off.
+planet::WorldFile worldToBake(const WorldEdit& edit) {
+    planet::WorldFile world = edit;
+    world.layers = planet::layersOn(edit.layers);
+    world.colours = planet::layersOn(edit.colours);
+    return world;
 }
 
 Result<void> write(const std::string& text, const fs::path& file) {
@@ -73,38 +77,23 @@ Result<WorldEdit> editOf(const fs::path& source, const planet::HeightSourceSetti
             "not have; expected a world file with scale, offset_m and voids",
             source.string()));
     }
-    WorldEdit edit;
-    if (planet::isWorldFile(source)) {
-        Result<planet::WorldFile> world = planet::readWorldFile(source);
-        if (!world) return tl::unexpected(world.error());
-        for (planet::WorldLayer& layer : world->layers) edit.layers.push_back({std::move(layer)});
-        world->layers.clear();
-        edit.world = *std::move(world);
+    if (planet::isWorldFile(source)) return planet::readWorldFile(source);
+    return layersOf(source).map([](std::vector<planet::WorldLayer> layers) {
+        WorldEdit edit;
+        edit.layers = std::move(layers);
         return edit;
-    }
-    Result<std::vector<EditedLayer>> layers = layersOf(source);
-    if (!layers) return tl::unexpected(layers.error());
-    edit.layers = *std::move(layers);
-    return edit;
-}
-
-planet::WorldFile editedWorld(const WorldEdit& edit) {
-    planet::WorldFile world = edit.world;
-    for (const EditedLayer& layer : edit.layers) {
-        if (layer.on) world.layers.push_back(layer.layer);
-    }
-    return world;
+    });
 }
 
 bool sameWorld(const WorldEdit& a, const WorldEdit& b) {
-    return textOf(a, "/") == textOf(b, "/");
+    return planet::worldText(a, "/") == planet::worldText(b, "/");
 }
 
 Result<void> checkEdit(const WorldEdit& edit) {
-    if (std::ranges::none_of(edit.layers, &EditedLayer::on))
+    if (planet::layersOn(edit.layers).empty())
         return planet::badInput("no layer is on; expected at least one");
     const fs::path place = "/edited layers";
-    const Result<planet::WorldFile> world = planet::worldFromText(textOf(edit, "/"), place);
+    const Result<planet::WorldFile> world = planet::worldFromText(planet::worldText(edit, "/"), place);
     if (world) return {};
     planet::Error error = world.error();
     // The line is one of a file that nobody sees.
@@ -116,14 +105,15 @@ Result<void> checkEdit(const WorldEdit& edit) {
 
 void addLayer(WorldEdit& edit, std::span<const fs::path> files) {
     planet::WorldLayer layer = layerOfFiles(files);
-    layer.datum = edit.world.datum;
-    edit.layers.push_back({std::move(layer)});
+    layer.datum = edit.datum;
+    edit.layers.push_back(std::move(layer));
 }
 
 Result<fs::path> writeForBake(const WorldEdit& edit, const fs::path& folder, const std::string& stem) {
     if (Result<void> good = checkEdit(edit); !good) return tl::unexpected(std::move(good).error());
     // The name of the file stands in messages and in the chunk file, so it has no hash.
-    const std::string content = textOf(edit, folder);
+    const planet::WorldFile world = worldToBake(edit);
+    const std::string content = planet::worldText(world, folder);
     const fs::path own = folder / fmt::format("{:016x}", XXH3_64bits(content.data(), content.size()));
     const fs::path file = own / (stem + ".toml");
     std::error_code problem;
@@ -131,8 +121,7 @@ Result<fs::path> writeForBake(const WorldEdit& edit, const fs::path& folder, con
     fs::create_directories(own, problem);
     if (problem)
         return planet::ioError(fmt::format("{}: cannot be created: {}", own.string(), problem.message()));
-    const std::string text = textOf(edit, own);
-    return write(text, file).map([&] { return file; });
+    return write(planet::worldText(world, own), file).map([&] { return file; });
 }
 
 Result<void> saveWorld(const WorldEdit& edit, const fs::path& file) {
@@ -142,7 +131,7 @@ Result<void> saveWorld(const WorldEdit& edit, const fs::path& file) {
     }
     return checkEdit(edit).and_then([&] {
         const fs::path whole = fs::absolute(file);
-        return write(textOf(edit, whole.parent_path()), whole);
+        return write(planet::worldText(edit, whole.parent_path()), whole);
     });
 }
 

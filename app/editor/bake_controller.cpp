@@ -26,9 +26,7 @@ void advanceEstimate(BakeEstimator& estimator) {
         }
     }
     if (!estimator.next) return;
-    const BakeRequest request = *std::exchange(estimator.next, std::nullopt);
-    estimator.job = std::make_unique<EstimateJob>(request.source, request.sourceSettings, request.settings,
-                                                  request.colour);
+    estimator.job = std::make_unique<EstimateJob>(*std::exchange(estimator.next, std::nullopt));
 }
 
 void execute(BakeController& controller, const ui::BakeCommand& command, Session& session,

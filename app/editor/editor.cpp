@@ -69,9 +69,11 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     Workspace& workspace = settings_.settings.workspace;
     notices_.timeS = frames_.timeS += secondsSinceLast;
     window.setTheme(workspace.theme, workspace.scale);
-    // Frames wait for input during a bake without a planet, which needs the cores, and during a sweep, whose
-    // frame times they would disturb.
-    window.beginFrame(shownScene(session) && !sweep_.job ? 0 : 0.05);
+    // Frames wait for input during a bake of which at most a coarse first look is shown, because it needs the cores, and
+    // during a sweep, whose frame times they would disturb.
+    const OpenPlanet* const open = shownPlanet(session);
+    const bool waitsForBake = !open || (open->isFirstLook && session.bake);
+    window.beginFrame(waitsForBake || sweep_.job ? 0.05 : 0);
     const float pixelRatio = window.pixelRatio();
     const ui::Layout layout = ui::layoutOf(window.width(), window.height(), workspace, ui::menuBarHeight(),
                                            ui::statusBarHeight(), ui::unitPx());

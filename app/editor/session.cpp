@@ -119,7 +119,8 @@ void beginBake(Session& session, SessionBake&& bake, const Log& log) {
 
 // Returns the bake to copy unchanged chunks from: that of the same source which is open, or else one in the cache.
 fs::path earlierBakeFor(const Session& session, const SessionBake& bake) {
-    const bool isOpen = session.open && session.open->baked.source == bake.data.source &&
+    const bool isOpen = session.open && !session.open->isFirstLook &&
+                        session.open->baked.source == bake.data.source &&
                         session.open->baked.settings.chunkSize == bake.request.settings.chunkSize;
     if (isOpen) return session.open->data.chunkFile;
     return earlierBakeOf(bake.data.source, bake.request.settings);
@@ -134,9 +135,40 @@ void launchWaitingBake(Session& session) {
     settings.reuse = earlierBakeFor(session, bake);
     std::error_code status;
     fs::create_directories(bake.data.chunkFile.parent_path(), status);
-    session.bake->job =
-        std::make_unique<BakeJob>(bake.data.source, bake.request.sourceSettings, settings,
-                                  bake.data.chunkFile, JobColour{bake.data.bakedColour, bake.colourMayFail});
+    std::optional<FirstLook> firstLook;
+    if (bake.needed) {
+        bake.firstLook = firstLookOf(bake.data, bake.request.sourceSettings);
+        if (bake.firstLook->needsBake)
+            firstLook = {.settings = bake.firstLook->settings, .output = bake.firstLook->chunkFile};
+    }
+    bake.job =
+        std::make_unique<BakeJob>(BakeTask{.source = bake.data.source,
+                                           .sourceSettings = bake.request.sourceSettings,
+                                           .settings = settings,
+                                           .output = bake.data.chunkFile,
+                                           .colour = JobColour{bake.data.bakedColour, bake.colourMayFail},
+                                           .firstLook = firstLook,
+                                           .opened = std::exchange(bake.opened, std::nullopt)});
+}
+
+// Shows the coarse bake of a planet as soon as it is there. The whole bake goes on, and then takes its place.
+void showFirstLook(Session& session, const ViewSettings& settings, const Log& log) {
+    if (!session.bake || !session.bake->job || !session.bake->firstLook) return;
+    SessionBake& bake = *session.bake;
+    if (bake.job->takeFirstLook()) bake.firstLook->needsBake = false;
+    if (bake.firstLook->needsBake) return;
+    const DataSet look = *std::exchange(bake.firstLook, std::nullopt);
+    Result<OpenPlanet> open = openPlanet(session, look, settings, log);
+    if (!open) {
+        log->warn("{}; waiting for the whole bake", open.error().message);
+        return;
+    }
+    log->info("This is a coarse first look. The whole bake takes its place when it is done.");
+    open->layers = bake.job->layers();
+    open->isFirstLook = true;
+    show(session, std::move(*open), false);
+    bake.needed = false;
+    bake.forComparison = false;
 }
 
 void failBake(Session& session, const SessionBake& bake, const planet::Error& error, const Log& log) {
@@ -235,12 +267,14 @@ bool samePlace(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
-Session startSession(DataSet data, const fs::path& shaderFolder, const Log& log) {
+Session startSession(DataSet data, const fs::path& shaderFolder, const Log& log,
+                     std::optional<planet::HeightSource> opened) {
     Session session;
     session.data = std::move(data);
     session.shaders.folder = shaderFolder;
     if (!shaderFolder.empty()) session.shaders.changed = newestIn(shaderFolder);
     if (session.data.needsBake) startBake(session, log);
+    if (session.bake) session.bake->opened = std::move(opened);
     return session;
 }
 
@@ -342,6 +376,7 @@ void cancelBake(Session& session) {
 void advanceSession(Session& session, const ViewSettings& settings, const Log& log) {
     finishBake(session, settings, log);
     launchWaitingBake(session);
+    showFirstLook(session, settings, log);
     if (!session.open && !session.bake && !session.problem) {
         Result<OpenPlanet> open = openPlanet(session, session.data, settings, log);
         if (open)
@@ -450,6 +485,7 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     view.name = sourceName(data.source);
     view.source = data.source;
     view.chunkFile = data.chunkFile;
+    view.isFirstLook = open && open->isFirstLook;
     view.hasColourImage = open && open->scene.hasColourImage;
     view.hasPreviousBake = session.previous.has_value();
     view.showsPreviousBake = session.showsPrevious;

@@ -28,17 +28,20 @@ struct OpenPlanet {
     bool compressionKnown = false;  // only for bakes of this session
     bool sourceIsThere = false;     // the source existed when the planet was opened
     Scene scene;
-    SharedLayers layers{};  // of the source; null unless this session baked the planet
+    SharedLayers layers{};     // of the source; null unless this session baked the planet
+    bool isFirstLook = false;  // a coarse bake, shown until the whole one is done
 };
 
 // A bake that is running or waiting.
 struct SessionBake {
     BakeRequest request;
-    DataSet data;                  // the data set to open when it is done
-    bool forComparison = false;    // the replaced planet is kept
-    bool needed = false;           // nothing can be shown without it
-    bool colourMayFail = false;    // the image was not chosen by the user
-    std::unique_ptr<BakeJob> job;  // none while an earlier bake is still ending
+    DataSet data;                                  // the data set to open when it is done
+    bool forComparison = false;                    // the replaced planet is kept
+    bool needed = false;                           // nothing can be shown without it
+    bool colourMayFail = false;                    // the image was not chosen by the user
+    std::optional<DataSet> firstLook{};            // baked or opened first, so that something is shown soon
+    std::optional<planet::HeightSource> opened{};  // the source, if it is open already
+    std::unique_ptr<BakeJob> job;                  // none while an earlier bake is still ending
 
     bool stopping() const { return job && job->cancelling(); }
 };
@@ -68,8 +71,10 @@ struct Session {
     std::optional<planet::BakeReport> bakeReport;  // of the last bake
 };
 
-// Starts a session. If the data set needs a bake, it runs in the background and advanceSession() opens it.
-Session startSession(DataSet data, const std::filesystem::path& shaderFolder, const Log& log);
+// Starts a session. If the data set needs a bake, it runs in the background, and advanceSession() opens first a coarse
+// bake and then the whole one. opened: the data set's source, if it is open already.
+Session startSession(DataSet data, const std::filesystem::path& shaderFolder, const Log& log,
+                     std::optional<planet::HeightSource> opened = {});
 
 // Opens a chunk file or a source. The shown planet stays until the new one is open. A source without a bake
 // is baked in the background first. A running bake is cancelled. Returns false if the file cannot be opened;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/base/places.h"
@@ -29,19 +30,37 @@ bool isInFront(const Workspace& workspace, PanelId panel) {
     return place.shown && workspace.inFront[static_cast<std::size_t>(place.dock)] == panel;
 }
 
-void readEdits(LayerEditing& editing, const std::filesystem::path& source,
-               const planet::HeightSourceSettings& settings) {
+void changeEdit(LayerEditing& editing, WorldEdit edit) {
+    editing.edit = std::move(edit);
+    const planet::Result<void> good = checkEdit(editing.edit);
+    editing.bakeProblem = good ? std::string() : good.error().message;
+    editing.changed = editing.file && !sameWorld(*editing.file, editing.edit);
+}
+
+// Reads the layers of a source to edit them. Unsaved changes of another source are kept until that is opened again.
+void readEdits(SourceController& sources, const std::filesystem::path& source) {
+    LayerEditing& editing = sources.editing;
     // The layers of the world file that a bake of them wrote are the edited ones.
-    if (!source.empty() && (source == editing.source || source == editing.baked)) return;
+    const auto isOf = [&](const LayerEditing& each) {
+        return !source.empty() && (source == each.source || source == each.baked);
+    };
+    if (isOf(editing)) return;
+    if (editing.changed) sources.kept.push_back(editing);
     editing = {.source = source};
     if (source.empty()) return;
-    planet::Result<WorldEdit> read = editOf(source, settings);
+    const auto kept = std::ranges::find_if(sources.kept, isOf);
+    if (kept != sources.kept.end()) {
+        editing.source = kept->source;
+        editing.baked = kept->baked;
+    }
+    planet::Result<WorldEdit> read = editOf(editing.source, sources.settings);
     if (!read) {
         editing.problem = read.error().message;
         return;
     }
-    editing.edit = *read;
-    editing.file = *std::move(read);
+    editing.file = *read;
+    changeEdit(editing, kept == sources.kept.end() ? *std::move(read) : kept->edit);
+    if (kept != sources.kept.end()) sources.kept.erase(kept);
 }
 
 void meetPlanet(SourceController& sources, const OpenPlanet& open) {
@@ -59,7 +78,7 @@ void meetPlanet(SourceController& sources, const OpenPlanet& open) {
     sources.queries.pointed.reset();
     sources.depths.job.reset();
     sources.depths.depths.reset();
-    readEdits(sources.editing, sources.source, sources.settings);
+    readEdits(sources, sources.source);
 }
 
 void readSource(SourceController& sources, const Settings& settings, const Log& log) {
@@ -168,13 +187,6 @@ void askPlaces(SourceController& sources, const SourceFrame& frame) {
         sources.queries.job = std::make_unique<PlacesJob>(sources.reader.layers, std::move(places));
 }
 
-void changeEdit(LayerEditing& editing, WorldEdit edit) {
-    editing.edit = std::move(edit);
-    const planet::Result<void> good = checkEdit(editing.edit);
-    editing.bakeProblem = good ? std::string() : good.error().message;
-    editing.changed = editing.file && !sameWorld(*editing.file, editing.edit);
-}
-
 void bakeEdited(SourceController& sources, const OpenPlanet& open, Notices& notices, ui::Commands& next) {
     LayerEditing& editing = sources.editing;
     const std::string stem = planet::heightSourceFiles(editing.source).stem;
@@ -191,13 +203,18 @@ void bakeEdited(SourceController& sources, const OpenPlanet& open, Notices& noti
     next.push_back(ui::StartBake{std::move(request)});
 }
 
-void saveEdited(LayerEditing& editing, const std::filesystem::path& file, Notices& notices) {
+void saveEdited(LayerEditing& editing, const ui::SaveLayers& save, Notices& notices) {
+    const std::filesystem::path& file = save.file;
+    std::error_code status;
+    editing.replaces.clear();
+    if (!save.replaces && std::filesystem::exists(file, status)) {
+        editing.replaces = file;
+        return;
+    }
     if (!succeeded(notices, saveWorld(editing.edit, file),
                    fmt::format("{} cannot be saved", file.filename().string())))
         return;
-    WorldEdit saved = editing.edit;
-    std::erase_if(saved.layers, [](const EditedLayer& layer) { return !layer.on; });
-    editing.file = std::move(saved);
+    editing.file = editing.edit;
     editing.changed = false;
     confirm(notices, fmt::format("World file {} saved", file.filename().string()),
             fmt::format("World file {} saved", file.string()));
@@ -235,7 +252,7 @@ void execute(SourceController& sources, const ui::SourceCommand& command, const 
                    [&](const ui::BakeLayers&) {
                        if (open) bakeEdited(sources, *open, notices, next);
                    },
-                   [&](const ui::SaveLayers& save) { saveEdited(editing, save.file, notices); },
+                   [&](const ui::SaveLayers& save) { saveEdited(editing, save, notices); },
                    [&](const ui::AddDroppedFiles&) {
                        WorldEdit edit = editing.edit;
                        addLayer(edit, std::exchange(sources.dropped, {}));
@@ -274,6 +291,7 @@ ui::SourcesView sourcesViewOf(const SourceController& sources, const Session& se
     view.editProblem = editing.problem;
     view.edited = editing.changed;
     view.bakeProblem = editing.bakeProblem;
+    view.replaces = editing.replaces;
     view.baking = session.bake.has_value();
     view.selected = sources.queries.selected;
     view.pointed = sources.queries.pointed;

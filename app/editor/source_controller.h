@@ -27,9 +27,10 @@ struct LayerEditing {
     std::filesystem::path baked{};    // the world file of their last bake; empty if there was none
     std::optional<WorldEdit> file{};  // as they were read or saved last; none if they cannot be edited
     WorldEdit edit{};
-    bool changed = false;       // edit gives another world than file
-    std::string problem{};      // why they cannot be edited
-    std::string bakeProblem{};  // why they cannot be baked
+    bool changed = false;              // edit gives another world than file
+    std::string problem{};             // why they cannot be edited
+    std::string bakeProblem{};         // why they cannot be baked
+    std::filesystem::path replaces{};  // an existing file that saving them would replace
 };
 
 // Opens the source for its layers.
@@ -64,6 +65,7 @@ struct SourceController {
     planet::HeightSourceSettings settings;
     SourceReader reader;
     LayerEditing editing;
+    std::vector<LayerEditing> kept;  // changed and unsaved layers of other sources
     PlaceQueries queries;
     DepthReader depths;
     std::vector<std::filesystem::path> dropped;  // rasters that wait for the answer to the drop question

@@ -214,11 +214,12 @@ Result<void> HeightRaster::read(const RasterRect& rect, float* out, std::size_t 
     return {};
 }
 
-Result<HeightStatistics> HeightRaster::statistics() const {
+Result<HeightStatistics> HeightRaster::statistics(const std::stop_token& stop) const {
     if (statistics_) return *statistics_;
     HeightStatistics statistics;
     for (int blockY = 0; blockY * blocks_.height < height_; ++blockY) {
         for (int blockX = 0; blockX * blocks_.width < width_; ++blockX) {
+            if (stop.stop_requested()) return cancelled();
             TRY(loadBlock(blockX, blockY, &statistics));
         }
     }

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -125,8 +126,8 @@ public:
     Result<void> read(const RasterRect& rect, float* out, std::size_t strideSamples) const;
 
     // Returns the statistics of all samples. If they are unknown, it reads each sample once, a block at a
-    // time.
-    Result<HeightStatistics> statistics() const;
+    // time, unless a stop is requested.
+    Result<HeightStatistics> statistics(const std::stop_token& stop = {}) const;
 
 private:
     RasterRect blockRect(int blockX, int blockY) const;  // clipped to the grid

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stop_token>
 
 #include "planet/base/file_calls.h"
 
@@ -32,6 +33,8 @@ struct HeightSourceSettings {
     // no blocks, such as a PNG, it is copied once to a temporary file.
     std::size_t cacheBytes = 48u << 20;
     FileCalls fileCalls = systemFileCalls();  // for raw faces and the temporary file
+    // A request ends the opening of a source, which may read every sample, with an Error of the kind Cancelled.
+    std::stop_token stop{};
 };
 
 }  // namespace planet

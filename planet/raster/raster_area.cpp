@@ -233,7 +233,7 @@ bool CoveredSquares::meet(const ChunkId& square) const {
     return found != indices.end() && *found - first < (std::uint64_t{1} << shift);
 }
 
-AreaSurvey surveyArea(RasterMosaic mosaic) {
+AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
     AreaSurvey survey{{.mosaic = std::move(mosaic), .statistics = {}, .covered = {}}, {}};
     RasterArea& area = survey.area;
     setResolution(area);
@@ -245,6 +245,7 @@ AreaSurvey surveyArea(RasterMosaic mosaic) {
     std::map<std::size_t, Error> broken;
     std::mutex mutex;
     parallelFor(blocks.size(), [&](std::size_t i) {
+        if (stop.stop_requested()) return;
         const auto& [tileIndex, x, y] = blocks[i];
         const RasterMosaic::Tile& tile = area.mosaic.tiles()[tileIndex];
         const RasterLayout& layout = tile.raster->layout();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <stop_token>
 #include <vector>
 
 #include "planet/base/result.h"
@@ -54,8 +55,8 @@ struct AreaSurvey {
     std::vector<BrokenTile> broken;  // in the order of the tiles
 };
 
-// Reads every sample once.
-AreaSurvey surveyArea(RasterMosaic mosaic);
+// Reads every sample once. When a stop is requested it returns early, and the survey is not whole.
+AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop = {});
 
 // The number of samples in a radian along each axis of a grid.
 struct SampleDensity {

@@ -42,7 +42,7 @@ Result<void> samplePiece(const Channels& channels, const SampleTile& piece, glm:
 bool hasColourLayers(const std::filesystem::path& path) {
     if (!isWorldFile(path)) return false;
     const Result<WorldFile> world = readWorldFile(path);
-    return world && !world->colours.empty();
+    return world && !layersOn(world->colours).empty();
 }
 
 Result<ColourSource> openColourSource(const std::filesystem::path& path, std::size_t cacheBytes) {

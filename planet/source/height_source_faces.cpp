@@ -439,10 +439,11 @@ Result<SourceReading> nearestSample(const FaceSet& set,
 }
 
 Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& format,
-                                   const HeightConversion& conversion, FaceSet set, FaceEdges edges) {
+                                   const HeightConversion& conversion, const std::stop_token& stop,
+                                   FaceSet set, FaceEdges edges) {
     HeightStatistics statistics;
     for (const HeightRaster& face : set.faces) {
-        TRY_ASSIGN(const auto part, face.statistics());
+        TRY_ASSIGN(const auto part, face.statistics(stop));
         addTo(statistics, part);
     }
     set.size = format.size;
@@ -503,7 +504,7 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
                    raw ? openRawRaster(files.paths[face], format.size, conversion, memory, settings.fileCalls)
                        : openImageRaster(images[face], conversion, memory, settings.fileCalls));
     }
-    return describeFaces(files, format, conversion, std::move(set), edges);
+    return describeFaces(files, format, conversion, settings.stop, std::move(set), edges);
 }
 
 }  // namespace planet

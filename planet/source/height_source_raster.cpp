@@ -96,13 +96,14 @@ Error errorOf(const std::vector<std::filesystem::path>& files, const std::vector
 }
 
 // Opens rasters. PROJ must know the way to each reference system.
-std::vector<OpenRaster> openRasters(
+Result<std::vector<OpenRaster>> openRasters(
     const std::vector<std::filesystem::path>& files,
     const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open,
-    std::vector<BrokenFile>& broken) {
+    const std::stop_token& stop, std::vector<BrokenFile>& broken) {
     std::vector<OpenRaster> rasters;
     std::set<std::string> known;
     for (std::size_t i = 0; i < files.size(); ++i) {
+        if (stop.stop_requested()) return cancelled();
         const Result<std::shared_ptr<const Raster>> raster = open(i);
         if (!raster) {
             broken.push_back({i, raster.error()});
@@ -125,13 +126,14 @@ std::vector<OpenRaster> openRasters(
 // Joins and surveys rasters. Moves those that cannot be read to the broken ones.
 Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters,
                                          const std::shared_ptr<MosaicCache>& cache,
-                                         std::vector<BrokenFile>& broken) {
+                                         const std::stop_token& stop, std::vector<BrokenFile>& broken) {
     std::vector<std::shared_ptr<const Raster>> whole;
     for (const OpenRaster& raster : rasters) whole.push_back(raster.raster);
     TRY_ASSIGN(auto mosaics, RasterMosaic::join(whole, cache));
     std::vector<RasterArea> areas;
     for (RasterMosaic& mosaic : mosaics) {
-        AreaSurvey survey = surveyArea(std::move(mosaic));
+        AreaSurvey survey = surveyArea(std::move(mosaic), stop);
+        if (stop.stop_requested()) return cancelled();
         for (const auto& [tile, error] : survey.broken) {
             const auto found =
                 std::ranges::find(rasters, survey.area.mosaic.tiles()[tile].raster, &OpenRaster::raster);
@@ -155,11 +157,11 @@ Result<RasterAreas> openRasterAreas(
     const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open) {
     RasterAreas found;
     std::vector<BrokenFile> broken;
-    std::vector<OpenRaster> rasters = openRasters(files, open, broken);
+    TRY_ASSIGN(auto rasters, openRasters(files, open, settings.stop, broken));
     // Without the broken rasters, the others are joined and surveyed again.
     for (bool done = rasters.empty(); !done;) {
         const std::size_t count = rasters.size();
-        TRY_ASSIGN(found.areas, surveyed(rasters, cache, broken));
+        TRY_ASSIGN(found.areas, surveyed(rasters, cache, settings.stop, broken));
         done = rasters.size() == count || rasters.empty() || !settings.skipBroken;
     }
     std::ranges::sort(broken, {}, &BrokenFile::number);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -150,6 +151,11 @@ constexpr std::array layerKeys = {
                  TRY_ASSIGN(layer.featherM, readNumber(file, "feather_m", node, {0, 1e6, "m"}));
                  return {};
              }},
+    LayerKey{"on",
+             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
+                 TRY_ASSIGN(layer.on, readBool(file, "on", node));
+                 return {};
+             }},
     LayerKey{"scale", readScale},
     LayerKey{"offset_m",
              [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
@@ -187,8 +193,10 @@ struct TableKind {
     bool (*knows)(std::string_view key);
 };
 constexpr TableKind elevationKind = {"elevation", [](std::string_view) { return true; }};
-constexpr TableKind colourKind = {
-    "colour", [](std::string_view key) { return key == "name" || key == "files" || key == "feather_m"; }};
+constexpr TableKind colourKind = {"colour", [](std::string_view key) {
+                                      return key == "name" || key == "on" || key == "files" ||
+                                             key == "feather_m";
+                                  }};
 
 std::string knownKeys(const TableKind& kind) {
     std::string names;
@@ -257,8 +265,8 @@ Result<void> checkLayer(const std::string& place, const WorldLayer& layer, bool 
             "none of them",
             place));
     }
-    if (!layer.detail.empty() &&
-        (isFirst || layer.join != LayerJoin::Replace || layer.scale != 1 || layer.offsetM != 0)) {
+    if (!layer.detail.empty() && ((isFirst && layer.on) || layer.join != LayerJoin::Replace ||
+                                  layer.scale != 1 || layer.offsetM != 0)) {
         return badInput(fmt::format(
             "{}: detail refines what lies under it; expected a layer under it, and no join, scale or "
             "offset_m",
@@ -300,7 +308,8 @@ Result<std::vector<WorldLayer>> readLayers(const std::filesystem::path& file, co
                                     list ? list->size() : 0, kind.table, mostLayers, kind.table));
     }
     for (const toml::node& each : *list) {
-        TRY_ASSIGN(auto layer, readLayer(file, each, kind, layers.empty()));
+        const bool isFirst = std::ranges::none_of(layers, &WorldLayer::on);
+        TRY_ASSIGN(auto layer, readLayer(file, each, kind, isFirst));
         layers.push_back(std::move(layer));
     }
     return layers;
@@ -328,6 +337,8 @@ Result<WorldFile> worldFromTable(const toml::table& table, const std::filesystem
         return badInput(fmt::format("{}: has no layers; expected [1, {}] tables [[elevation]] or [[colour]]",
                                     path.string(), mostLayers));
     }
+    if (layersOn(world.layers).empty() && layersOn(world.colours).empty())
+        return badInput(fmt::format("{}: no layer is on; expected at least one", path.string()));
     for (std::size_t i = 0; i < world.layers.size(); ++i)
         TRY(checkDatum(placeOf(path, *table["elevation"].as_array()->get(i)), world.layers[i], world.datum));
     return world;
@@ -375,6 +386,7 @@ toml::table tableOf(const WorldLayer& layer, const std::filesystem::path& folder
     constexpr std::string_view kind = "detail:";
     toml::table table;
     if (layer.name != defaultNameOf(layer)) table.insert("name", layer.name);
+    if (!layer.on) table.insert("on", false);
     if (!layer.files.empty()) insertFiles(layer, folder, table);
     if (!layer.terrain.empty()) table.insert("terrain", layer.terrain);
     if (!layer.detail.empty()) table.insert("detail", layer.detail.substr(kind.size()));
@@ -420,6 +432,12 @@ std::string worldText(const WorldFile& world, const std::filesystem::path& folde
     std::ostringstream text;
     text << toml::toml_formatter(table) << '\n';
     return text.str();
+}
+
+std::vector<WorldLayer> layersOn(const std::vector<WorldLayer>& layers) {
+    std::vector<WorldLayer> on;
+    std::ranges::copy_if(layers, std::back_inserter(on), &WorldLayer::on);
+    return on;
 }
 
 std::string defaultNameOf(const WorldLayer& layer) {

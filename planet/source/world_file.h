@@ -32,6 +32,7 @@ enum class LayerVoids : std::uint8_t {
 
 struct WorldLayer {
     std::string name;  // for messages; the first file or the terrain if the file gives none
+    bool on = true;    // a layer that is off is only kept in the file
     std::vector<std::filesystem::path>
         files;            // paths or patterns, relative ones from the folder of the world file
     std::string terrain;  // instead of files: "noise:ridged,seed=7"
@@ -52,8 +53,8 @@ struct WorldLayer {
 };
 
 struct WorldFile {
-    // The layers of elevation and those of colour, from the bottom up. At least one list has a layer. A layer of colour
-    // has only a name, files and featherM.
+    // The layers of elevation and those of colour, from the bottom up. At least one layer is on. A layer of colour has
+    // only a name, files and featherM, and is on or off.
     std::vector<WorldLayer> layers;
     std::vector<WorldLayer> colours;
     double radiusM = earthRadiusM;       // of the planet, for widths in metres; [1, 1e9]
@@ -70,6 +71,9 @@ Result<WorldFile> worldFromText(std::string_view text, const std::filesystem::pa
 // Returns the text of a world file that lies in a folder. It names files relative to the folder where that is possible.
 // Keys with their defaults are left out.
 std::string worldText(const WorldFile& world, const std::filesystem::path& folder);
+
+// Returns the layers that are on.
+std::vector<WorldLayer> layersOn(const std::vector<WorldLayer>& layers);
 
 // Returns the name of a layer that has none of its own: its first file, its terrain or its detail.
 std::string defaultNameOf(const WorldLayer& layer);

@@ -498,7 +498,7 @@ private:
 
 Result<HeightSource> openWorld(const std::filesystem::path& path, const HeightSourceSettings& settings) {
     TRY_ASSIGN(const auto file, readWorldFile(path));
-    const std::vector<WorldLayer>& layers = settings.colourChannel ? file.colours : file.layers;
+    const std::vector<WorldLayer> layers = layersOn(settings.colourChannel ? file.colours : file.layers);
     if (layers.empty()) {
         return badInput(fmt::format("{}: has no layers of {}; expected tables [[{}]]", path.string(),
                                     settings.colourChannel ? "colour" : "elevation",

@@ -56,8 +56,8 @@ protected:
         return request;
     }
 
-    Session sessionOf(const std::filesystem::path& file) {
-        const auto data = findDataSet(file, {});
+    Session sessionOf(const std::filesystem::path& file, const planet::BakeSettings& settings = {}) {
+        const auto data = findDataSet(file, settings);
         if (!data) throw std::runtime_error(data.error().message);
         return startSession(*data, {}, log_);
     }

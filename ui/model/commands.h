@@ -249,6 +249,7 @@ struct RevertLayers {};  // to those of the file
 struct BakeLayers {};    // with the settings of the open file
 struct SaveLayers {      // as a world file
     std::filesystem::path file;
+    bool replaces = false;  // false: an existing file is kept, and the user is asked
 };
 struct AddDroppedFiles {};   // adds the files of the drop question as a layer
 struct OpenDroppedFiles {};  // opens them as a planet

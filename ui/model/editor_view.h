@@ -49,6 +49,7 @@ struct DataView {
     std::string name;                 // "elevation.tif"
     std::filesystem::path source;     // the file that was opened
     std::filesystem::path chunkFile;  // the file that is drawn
+    bool isFirstLook = false;         // a coarse bake, shown until the whole one is done
     bool hasColourImage = false;
     bool hasPreviousBake = false;  // kept for comparison
     bool showsPreviousBake = false;

@@ -68,10 +68,10 @@ std::string stateText(const SourcesView& sources) {
 
 const planet::SourceLayer* descriptionOf(const SourcesView& sources, std::size_t edited) {
     if (!sources.layers || !sources.edit || edited >= sources.edit->layers.size()) return nullptr;
-    const std::vector<EditedLayer>& layers = sources.edit->layers;
-    const std::string& name = layers[edited].layer.name;
+    const std::vector<planet::WorldLayer>& layers = sources.edit->layers;
+    const std::string& name = layers[edited].name;
     std::size_t under = 0;
-    for (std::size_t i = 0; i < edited; ++i) under += layers[i].layer.name == name ? 1 : 0;
+    for (std::size_t i = 0; i < edited; ++i) under += layers[i].name == name ? 1 : 0;
     for (const planet::SourceLayer& layer : sources.layers->layers) {
         if (layer.name == name && under-- == 0) return &layer;
     }

@@ -36,6 +36,8 @@ struct SourcesView {
     std::string editProblem{};        // why they cannot be edited
     bool edited = false;              // they differ from those of the file
     std::string bakeProblem{};        // why the edited layers cannot be baked
+    std::filesystem::path
+        replaces{};  // an existing file that saving would replace; the user is asked about it
     bool baking = false;
 
     std::optional<PlaceReadings> selected{};  // the middle of the selected chunk

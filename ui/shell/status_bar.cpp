@@ -87,6 +87,15 @@ void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name
 
 void warningCells(const EditorView& view, Cells& cells) {
     const Palette& colours = palette();
+    if (view.data.isFirstLook) {
+        cells.add(
+            "coarse first look",
+            view.bake.running
+                ? "This planet is a coarse bake, so that something is shown soon. The whole bake takes its "
+                  "place when it is done."
+                : "This planet is a coarse bake. The whole bake was stopped: bake again in the Bake panel.",
+            colours.warning);
+    }
     const planet::PagingCounters& paging = view.frames.stats.paging;
     if (paging.failedPermanently() > 0) {
         cells.add(fmt::format("{} failed", paging.failedPermanently()),

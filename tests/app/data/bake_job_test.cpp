@@ -34,7 +34,9 @@ planet::Result<planet::BakeReport> waitFor(BakeJob& job) {
 
 TEST(BakeJob, LeavesAChunkFileAndReportsOnce) {
     const TemporaryFolder folder;
-    BakeJob job(writeImage(folder), {.faceSize = 65, .chunkSize = 17}, folder.path() / "slope.chk");
+    BakeJob job({.source = writeImage(folder),
+                 .settings = {.faceSize = 65, .chunkSize = 17},
+                 .output = folder.path() / "slope.chk"});
     const planet::Result<planet::BakeReport> report = waitFor(job);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_TRUE(planet::ChunkFile::open(folder.path() / "slope.chk"));
@@ -44,7 +46,9 @@ TEST(BakeJob, LeavesAChunkFileAndReportsOnce) {
 
 TEST(BakeJob, CancelledEndsWithoutAFile) {
     const TemporaryFolder folder;
-    BakeJob job(writeImage(folder), {.faceSize = 16385, .chunkSize = 17}, folder.path() / "slope.chk");
+    BakeJob job({.source = writeImage(folder),
+                 .settings = {.faceSize = 16385, .chunkSize = 17},
+                 .output = folder.path() / "slope.chk"});
     job.cancel();
     EXPECT_TRUE(job.cancelling());
     const planet::Result<planet::BakeReport> report = waitFor(job);
@@ -56,8 +60,56 @@ TEST(BakeJob, CancelledEndsWithoutAFile) {
 TEST(BakeJob, GoingOutOfScopeCancels) {
     const TemporaryFolder folder;
     const fs::path image = writeImage(folder);
-    { const BakeJob job(image, {.faceSize = 16385, .chunkSize = 17}, folder.path() / "slope.chk"); }
+    {
+        const BakeJob job({.source = image,
+                           .settings = {.faceSize = 16385, .chunkSize = 17},
+                           .output = folder.path() / "slope.chk"});
+    }
     EXPECT_EQ(fileCountIn(folder.path()), 1u);
+}
+
+BakeTask withFirstLook(const TemporaryFolder& folder, int faceSize) {
+    return {.source = writeImage(folder),
+            .settings = {.faceSize = faceSize, .chunkSize = 17},
+            .output = folder.path() / "slope.chk",
+            .firstLook = FirstLook{.settings = {.faceSize = 65, .chunkSize = 17},
+                                   .output = folder.path() / "first.chk"}};
+}
+
+TEST(BakeJob, FirstLookIsThereBeforeTheWholeBake) {
+    const TemporaryFolder folder;
+    BakeJob job(withFirstLook(folder, 16385));
+    while (!job.takeFirstLook()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ASSERT_FALSE(job.takeResult());
+    }
+    const auto first = planet::ChunkFile::open(folder.path() / "first.chk");
+    ASSERT_TRUE(first);
+    EXPECT_EQ(planet::faceCells(first->info().shape), 64);
+    EXPECT_FALSE(job.takeFirstLook());
+    job.cancel();
+    EXPECT_FALSE(waitFor(job));
+    EXPECT_FALSE(fs::exists(folder.path() / "slope.chk"));
+}
+
+TEST(BakeJob, SmallFacesHaveNoFirstLook) {
+    const TemporaryFolder folder;
+    BakeJob job(withFirstLook(folder, 129));
+    EXPECT_TRUE(waitFor(job));
+    EXPECT_FALSE(job.takeFirstLook());
+    EXPECT_FALSE(fs::exists(folder.path() / "first.chk"));
+}
+
+TEST(BakeJob, SourceThatIsOpenIsNotReadAgain) {
+    const TemporaryFolder folder;
+    const fs::path image = writeImage(folder);
+    const auto heights = planet::openHeightSource(image, {});
+    ASSERT_TRUE(heights);
+    BakeJob job({.source = folder.path() / "renamed.pgm",
+                 .settings = {.faceSize = 65, .chunkSize = 17},
+                 .output = folder.path() / "slope.chk",
+                 .opened = *heights});
+    EXPECT_TRUE(waitFor(job));
 }
 
 void writeColourImage(const fs::path& file) {
@@ -69,8 +121,10 @@ void writeColourImage(const fs::path& file) {
 TEST(BakeJob, ReportsFacesOfColoursThatDifferAlongTheirEdges) {
     const TemporaryFolder folder;
     writeGreyFaces(folder);
-    BakeJob job(writeImage(folder), {}, {.faceSize = 65, .chunkSize = 17}, folder.path() / "slope.chk",
-                {folder.path() / "grey", true});
+    BakeJob job({.source = writeImage(folder),
+                 .settings = {.faceSize = 65, .chunkSize = 17},
+                 .output = folder.path() / "slope.chk",
+                 .colour = {folder.path() / "grey", true}});
     const planet::Result<planet::BakeReport> report = waitFor(job);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_TRUE(report->colourNotice.starts_with("grey: the colours of faces ")) << report->colourNotice;
@@ -80,8 +134,10 @@ TEST(BakeJob, ReportsFacesOfColoursThatDifferAlongTheirEdges) {
 TEST(BakeJob, LeavesAChunkFileWithColours) {
     const TemporaryFolder folder;
     writeColourImage(folder.path() / "map.ppm");
-    BakeJob job(writeImage(folder), {}, {.faceSize = 65, .chunkSize = 17}, folder.path() / "slope.chk",
-                {folder.path() / "map.ppm"});
+    BakeJob job({.source = writeImage(folder),
+                 .settings = {.faceSize = 65, .chunkSize = 17},
+                 .output = folder.path() / "slope.chk",
+                 .colour = {folder.path() / "map.ppm"}});
     const planet::Result<planet::BakeReport> report = waitFor(job);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->colourTiles, 6u);
@@ -103,12 +159,18 @@ TEST(BakeJob, AnImageThatMustBeThereIsAnErrorAndOneThatMayFailIsToldAndLeftOut) 
     std::ofstream(noImage) << "no image";
     const fs::path output = folder.path() / "slope.chk";
     for (const fs::path& image : {broken, noImage}) {
-        BakeJob strict(source, {}, {.faceSize = 65, .chunkSize = 17}, output, {image});
+        BakeJob strict({.source = source,
+                        .settings = {.faceSize = 65, .chunkSize = 17},
+                        .output = output,
+                        .colour = {image}});
         const planet::Result<planet::BakeReport> refused = waitFor(strict);
         ASSERT_FALSE(refused);
         EXPECT_NE(refused.error().message.find(image.string()), std::string::npos) << refused.error().message;
         EXPECT_EQ(fileCountIn(folder.path()), 3u);
-        BakeJob lenient(source, {}, {.faceSize = 65, .chunkSize = 17}, output, {image, true});
+        BakeJob lenient({.source = source,
+                         .settings = {.faceSize = 65, .chunkSize = 17},
+                         .output = output,
+                         .colour = {image, true}});
         const planet::Result<planet::BakeReport> baked = waitFor(lenient);
         ASSERT_TRUE(baked) << baked.error().message;
         EXPECT_EQ(baked->colourTiles, 0u);
@@ -116,7 +178,10 @@ TEST(BakeJob, AnImageThatMustBeThereIsAnErrorAndOneThatMayFailIsToldAndLeftOut) 
         fs::remove(output);
     }
     // What is wrong with the heights' settings is not taken for the image's.
-    BakeJob bad(source, {}, {.faceSize = 66, .chunkSize = 17}, output, {broken, true});
+    BakeJob bad({.source = source,
+                 .settings = {.faceSize = 66, .chunkSize = 17},
+                 .output = output,
+                 .colour = {broken, true}});
     ASSERT_FALSE(waitFor(bad));
     EXPECT_EQ(bad.colourProblem(), "");
 }
@@ -124,8 +189,10 @@ TEST(BakeJob, AnImageThatMustBeThereIsAnErrorAndOneThatMayFailIsToldAndLeftOut) 
 TEST(BakeJob, CancelledAmongColoursItEndsWithoutAFile) {
     const TemporaryFolder folder;
     writeColourImage(folder.path() / "map.ppm");
-    BakeJob job(writeImage(folder), {}, {.faceSize = 65, .chunkSize = 17, .colour = {.faceSize = 16385}},
-                folder.path() / "slope.chk", {folder.path() / "map.ppm", true});
+    BakeJob job({.source = writeImage(folder),
+                 .settings = {.faceSize = 65, .chunkSize = 17, .colour = {.faceSize = 16385}},
+                 .output = folder.path() / "slope.chk",
+                 .colour = {folder.path() / "map.ppm", true}});
     while (job.progress().samplesDone < 6u * 64 * 64 + 1) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
         ASSERT_FALSE(job.takeResult());
@@ -139,7 +206,7 @@ TEST(BakeJob, CancelledAmongColoursItEndsWithoutAFile) {
 
 TEST(BakeJob, ABadSourceIsAnError) {
     const TemporaryFolder folder;
-    BakeJob job("/nonexistent/slope.tif", {}, folder.path() / "slope.chk");
+    BakeJob job({.source = "/nonexistent/slope.tif", .output = folder.path() / "slope.chk"});
     const planet::Result<planet::BakeReport> report = waitFor(job);
     ASSERT_FALSE(report);
     EXPECT_NE(report.error().message.find("/nonexistent/slope.tif"), std::string::npos);

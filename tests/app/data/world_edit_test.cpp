@@ -36,14 +36,19 @@ constexpr const char* twoLayers =
     "fill_m = -5\n[[elevation]]\nfiles = \"low.tif\"\n[[elevation]]\nname = \"High\"\nfiles = "
     "\"deep/high.tif\"\n";
 
-TEST_F(WorldEdits, LayerThatIsOffIsNeitherBakedNorSaved) {
+TEST_F(WorldEdits, LayerThatIsOffIsSavedAndNotBaked) {
     WorldEdit edit = mustEdit(write("world.toml", twoLayers));
     ASSERT_EQ(edit.layers.size(), 2u);
-    EXPECT_EQ(edit.world.fillM, -5);
+    EXPECT_EQ(edit.fillM, -5);
     edit.layers[0].on = false;
-    const planet::WorldFile world = editedWorld(edit);
-    ASSERT_EQ(world.layers.size(), 1u);
-    EXPECT_EQ(world.layers[0].name, "High");
+    const auto forBake = writeForBake(edit, folder / "cache", "world");
+    ASSERT_TRUE(forBake) << forBake.error().message;
+    const WorldEdit baked = mustEdit(*forBake);
+    ASSERT_EQ(baked.layers.size(), 1u);
+    EXPECT_EQ(baked.layers[0].name, "High");
+    ASSERT_TRUE(saveWorld(edit, folder / "saved.toml"));
+    EXPECT_TRUE(sameWorld(edit, mustEdit(folder / "saved.toml")));
+    EXPECT_FALSE(mustEdit(folder / "saved.toml").layers[0].on);
     EXPECT_FALSE(sameWorld(edit, mustEdit(folder / "world.toml")));
     edit.layers[1].on = false;
     ASSERT_FALSE(checkEdit(edit));
@@ -53,13 +58,13 @@ TEST_F(WorldEdits, LayerThatIsOffIsNeitherBakedNorSaved) {
 TEST_F(WorldEdits, SourceThatIsNoWorldFileIsOneLayer) {
     const WorldEdit image = mustEdit("/somewhere/image.tif");
     ASSERT_EQ(image.layers.size(), 1u);
-    EXPECT_EQ(image.layers[0].layer.name, "image.tif");
-    EXPECT_EQ(mustEdit("noise:ridged,seed=7").layers[0].layer.terrain, "noise:ridged,seed=7");
+    EXPECT_EQ(image.layers[0].name, "image.tif");
+    EXPECT_EQ(mustEdit("noise:ridged,seed=7").layers[0].terrain, "noise:ridged,seed=7");
     const WorldEdit detail = mustEdit("detail:strength=0.5,of=/somewhere/image.tif");
     ASSERT_EQ(detail.layers.size(), 2u);
-    EXPECT_EQ(detail.layers[0].layer.files[0], "/somewhere/image.tif");
-    EXPECT_EQ(detail.layers[1].layer.detail, "detail:seed=1,strength=0.5");
-    EXPECT_EQ(mustEdit("detail:of=/somewhere/image.tif").layers[1].layer.detail, "detail:seed=1");
+    EXPECT_EQ(detail.layers[0].files[0], "/somewhere/image.tif");
+    EXPECT_EQ(detail.layers[1].detail, "detail:seed=1,strength=0.5");
+    EXPECT_EQ(mustEdit("detail:of=/somewhere/image.tif").layers[1].detail, "detail:seed=1");
     EXPECT_TRUE(checkEdit(detail));
 }
 
@@ -107,7 +112,7 @@ TEST_F(WorldEdits, UnchangedWorldIsWrittenOnceForItsBake) {
     ASSERT_TRUE(second);
     EXPECT_EQ(*second, *first);
     EXPECT_EQ(std::filesystem::last_write_time(*second), written);
-    edit.layers[1].layer.featherM = 100;
+    edit.layers[1].featherM = 100;
     EXPECT_NE(*writeForBake(edit, folder / "worlds", "world"), *first);
 }
 
@@ -117,7 +122,7 @@ TEST_F(WorldEdits, AddedLayerLiesOnTopAndHasTheDatumOfThePlanet) {
     const std::vector<std::filesystem::path> files = {"/x/b.tif", "/x/c.tif"};
     addLayer(edit, files);
     ASSERT_EQ(edit.layers.size(), 2u);
-    EXPECT_EQ(edit.layers[1].layer.files, files);
+    EXPECT_EQ(edit.layers[1].files, files);
     EXPECT_TRUE(checkEdit(edit)) << checkEdit(edit).error().message;
 }
 

@@ -78,6 +78,37 @@ TEST_F(SessionTest, aSourceIsBakedAndThenShown) {
     EXPECT_FALSE(dataViewOf(session, {}).hasPreviousBake);
 }
 
+TEST_F(SessionTest, aLongBakeShowsAFirstLookAndThenTakesItsPlace) {
+    Session session = sessionOf(writeSource(), {.faceSize = 2049});
+    ASSERT_TRUE(advanceUntil(session, [&] { return shownScene(session) != nullptr; }));
+    EXPECT_TRUE(bakeViewOf(session).running);
+    EXPECT_TRUE(dataViewOf(session, {}).isFirstLook);
+    EXPECT_EQ(planet::faceCells(shownScene(session)->planet->tree().shape), firstLookFaceSize - 1);
+    ASSERT_TRUE(advanceUntilQuiet(session));
+    EXPECT_FALSE(dataViewOf(session, {}).isFirstLook);
+    EXPECT_FALSE(dataViewOf(session, {}).hasPreviousBake);
+    EXPECT_EQ(planet::faceCells(shownScene(session)->planet->tree().shape), 2048);
+    expectLoads(*shownScene(session));
+}
+
+TEST_F(SessionTest, aFirstLookStaysIfTheWholeBakeIsCancelledAndIsNotBakedAgain) {
+    const fs::path source = writeSource();
+    const planet::BakeSettings settings{.faceSize = 16385, .chunkSize = 17};
+    {
+        Session session = sessionOf(source, settings);
+        ASSERT_TRUE(advanceUntil(session, [&] { return shownScene(session) != nullptr; }));
+        cancelBake(session);
+        ASSERT_TRUE(advanceUntilQuiet(session));
+        EXPECT_TRUE(dataViewOf(session, {}).isFirstLook);
+        EXPECT_EQ(dataViewOf(session, {}).problem, "");
+    }
+    EXPECT_EQ(filesInCache(), 1u);
+    Session again = sessionOf(source, settings);
+    advanceSession(again, settings_, log_);
+    EXPECT_NE(shownScene(again), nullptr);
+    EXPECT_TRUE(bakeViewOf(again).running);
+}
+
 TEST_F(SessionTest, exaggerationIsNoPartOfWhatTheFileWasBakedWith) {
     settings_.surface.exaggeration = 5;
     Session session = sessionOf(bakeTo("slope.chk", {.faceSize = 65, .chunkSize = 17, .quantumM = 2.0}));

@@ -115,7 +115,7 @@ TEST_F(SourceControllerTest, EditedLayersAreBakedAndOutliveTheirPlanet) {
     ASSERT_TRUE(framesUntil(session, [&] { return session.open && view(session).edit; }));
     EXPECT_FALSE(view(session).edited);
     WorldEdit edit = *view(session).edit;
-    edit.layers[1].layer.offsetM = 100;
+    edit.layers[1].offsetM = 100;
     run(session, ui::EditLayers{edit});
     EXPECT_TRUE(view(session).edited);
     const ui::Commands next = run(session, ui::BakeLayers{});
@@ -131,10 +131,10 @@ TEST_F(SourceControllerTest, EditedLayersAreBakedAndOutliveTheirPlanet) {
     EXPECT_NEAR(highestM, 600, 1) << "the raster with its offset";
     EXPECT_TRUE(view(session).edited) << "from the world file that was opened";
     EXPECT_EQ(view(session).source, folder_ / "world.toml");
-    EXPECT_EQ(view(session).edit->layers[1].layer.offsetM, 100);
+    EXPECT_EQ(view(session).edit->layers[1].offsetM, 100);
     run(session, ui::RevertLayers{});
     EXPECT_FALSE(view(session).edited);
-    EXPECT_EQ(view(session).edit->layers[1].layer.offsetM, 0);
+    EXPECT_EQ(view(session).edit->layers[1].offsetM, 0);
 }
 
 TEST_F(SourceControllerTest, WrongEditIsSaidAndNotBaked) {
@@ -157,7 +157,43 @@ TEST_F(SourceControllerTest, SavedLayersAreNoLongerEdited) {
     run(session, ui::SaveLayers{folder_ / "saved.toml"});
     EXPECT_TRUE(planet::isWorldFile(folder_ / "saved.toml"));
     EXPECT_FALSE(view(session).edited);
-    EXPECT_EQ(planet::readWorldFile(folder_ / "saved.toml")->layers.size(), 1u);
+    const auto saved = planet::readWorldFile(folder_ / "saved.toml");
+    ASSERT_TRUE(saved);
+    EXPECT_EQ(saved->layers.size(), 2u);
+    EXPECT_FALSE(saved->layers[0].on);
+}
+
+TEST_F(SourceControllerTest, ExistingFileIsReplacedOnlyIfTheUserSaysSo) {
+    Session session = sessionOf(folder_ / "world.toml");
+    ASSERT_TRUE(framesUntil(session, [&] { return session.open && view(session).edit; }));
+    WorldEdit edit = *view(session).edit;
+    edit.layers[1].offsetM = 100;
+    run(session, ui::EditLayers{edit});
+    const std::filesystem::path file = folder_ / "notes.toml";
+    std::ofstream(file) << "# mine\n";
+    run(session, ui::SaveLayers{file});
+    EXPECT_EQ(view(session).replaces, file);
+    EXPECT_TRUE(view(session).edited);
+    EXPECT_FALSE(planet::isWorldFile(file));
+    run(session, ui::SaveLayers{file, true});
+    EXPECT_TRUE(view(session).replaces.empty());
+    EXPECT_FALSE(view(session).edited);
+    EXPECT_TRUE(planet::isWorldFile(file));
+}
+
+TEST_F(SourceControllerTest, UnsavedChangesAreThereAgainWhenTheirSourceIs) {
+    Session session = sessionOf(folder_ / "world.toml");
+    ASSERT_TRUE(framesUntil(session, [&] { return session.open && view(session).edit; }));
+    WorldEdit edit = *view(session).edit;
+    edit.layers[1].offsetM = 100;
+    run(session, ui::EditLayers{edit});
+    ASSERT_TRUE(openFile(session, folder_ / "slope.pgm", editor_.view, log_));
+    ASSERT_TRUE(framesUntil(session, [&] { return view(session).source == folder_ / "slope.pgm"; }));
+    EXPECT_FALSE(view(session).edited);
+    ASSERT_TRUE(openFile(session, folder_ / "world.toml", editor_.view, log_));
+    ASSERT_TRUE(framesUntil(session, [&] { return view(session).source == folder_ / "world.toml"; }));
+    EXPECT_TRUE(view(session).edited);
+    EXPECT_EQ(view(session).edit->layers[1].offsetM, 100);
 }
 
 TEST_F(SourceControllerTest, OnlyGeoreferencedRastersAreAskedAbout) {
@@ -175,7 +211,7 @@ TEST_F(SourceControllerTest, OnlyGeoreferencedRastersAreAskedAbout) {
     run(session, ui::AddDroppedFiles{});
     EXPECT_TRUE(view(session).dropped.empty());
     ASSERT_EQ(view(session).edit->layers.size(), 3u);
-    EXPECT_EQ(view(session).edit->layers[2].layer.files.size(), 2u);
+    EXPECT_EQ(view(session).edit->layers[2].files.size(), 2u);
     EXPECT_EQ(editor_.workspace.inFront[static_cast<std::size_t>(Dock::Left)], PanelId::Sources);
 
     takeDroppedFile(sources_, folder_ / "mesa.tif");

@@ -29,8 +29,8 @@ constexpr const char* rowDrag = "source layer";
 // A row of the list: an edited layer, or one of a source that cannot be edited.
 struct LayerRow {
     std::string name;
-    const planet::SourceLayer* read = nullptr;  // null until it is read
-    const EditedLayer* edited = nullptr;        // null if it cannot be edited
+    const planet::SourceLayer* read = nullptr;   // null until it is read
+    const planet::WorldLayer* edited = nullptr;  // null if it cannot be edited
 };
 
 // From the bottom up.
@@ -38,8 +38,8 @@ std::vector<LayerRow> rowsOf(const SourcesView& sources) {
     std::vector<LayerRow> rows;
     if (sources.edit) {
         for (std::size_t i = 0; i < sources.edit->layers.size(); ++i) {
-            const EditedLayer& layer = sources.edit->layers[i];
-            rows.push_back({layer.layer.name, descriptionOf(sources, i), &layer});
+            const planet::WorldLayer& layer = sources.edit->layers[i];
+            rows.push_back({layer.name, descriptionOf(sources, i), &layer});
         }
     } else if (sources.layers) {
         for (const planet::SourceLayer& layer : sources.layers->layers) rows.push_back({layer.name, &layer});
@@ -80,7 +80,7 @@ void chip(const SourcesView& sources, const LayerRow& row) {
 const char* kindOf(const LayerRow& row) {
     if (row.read) return kindText(row.read->kind);
     if (!row.edited) return "";
-    const planet::WorldLayer& layer = row.edited->layer;
+    const planet::WorldLayer& layer = *row.edited;
     return !layer.detail.empty() ? "detail" : !layer.terrain.empty() ? "terrain" : "files";
 }
 
@@ -96,7 +96,8 @@ void layerRow(const EditorView& view, const LayerRow& row, std::size_t index, So
     beginGrey(!row.edited, "The layers of this source cannot be edited.");
     if (ImGui::Checkbox("##on", &on)) request.switched = index;
     noteItem("on " + row.name);
-    tooltip("Switches the layer on or off. A layer that is off is neither baked nor saved.");
+    tooltip(
+        "Switches the layer on or off. A layer that is off is not baked. It stays in a saved world file.");
     endGrey();
     ImGui::PopStyleVar();
     ImGui::TableNextColumn();
@@ -120,7 +121,7 @@ void layerRow(const EditorView& view, const LayerRow& row, std::size_t index, So
     const ImVec4& dim = palette().dim;
     cell(row.read ? spacingText(*row.read, radiusM) : "", dim);
     cell(row.read ? voidsText(*row.read) : "", dim);
-    cell(row.edited ? joinText(row.edited->layer.join) : row.read ? joinText(row.read->join) : "", dim);
+    cell(row.edited ? joinText(row.edited->join) : row.read ? joinText(row.read->join) : "", dim);
     cell(kindOf(row), dim);
     cell(broken ? fmt::format("{}", row.read->skipped.size()) : "", palette().bad);
     ImGui::PopID();
@@ -145,7 +146,7 @@ ListRequest layerList(const EditorView& view, const std::vector<LayerRow>& rows,
 
 void moveLayer(WorldEdit& edit, std::size_t from, std::size_t to) {
     if (from >= edit.layers.size() || to >= edit.layers.size() || from == to) return;
-    EditedLayer layer = std::move(edit.layers[from]);
+    planet::WorldLayer layer = std::move(edit.layers[from]);
     edit.layers.erase(edit.layers.begin() + static_cast<std::ptrdiff_t>(from));
     edit.layers.insert(edit.layers.begin() + static_cast<std::ptrdiff_t>(to), std::move(layer));
 }
@@ -249,10 +250,10 @@ void chosenLayer(const EditorView& view, const std::vector<LayerRow>& rows, std:
         layerFacts(view, *row.read);
     }
     if (row.edited) {
-        planet::WorldLayer layer = row.edited->layer;
-        if (sourceLayerControls(layer, view.sources.edit->world.datum)) {
+        planet::WorldLayer layer = *row.edited;
+        if (sourceLayerControls(layer, view.sources.edit->datum)) {
             WorldEdit edit = *view.sources.edit;
-            edit.layers[chosen].layer = std::move(layer);
+            edit.layers[chosen] = std::move(layer);
             commands.emplace_back(EditLayers{std::move(edit)});
         }
     }
@@ -280,10 +281,18 @@ void saveControls(const SourcesView& sources, SourcesPanelState& state, Commands
     beginGrey(!sources.bakeProblem.empty() || state.saveAs[0] == '\0',
               "The layers cannot be saved as they are.");
     if (button("Save as",
-               "Writes the layers that are on as a world file, with paths relative to its folder where "
-               "possible. A file "
-               "of that name is replaced, and its comments are lost."))
+               "Writes the layers as a world file, with paths relative to its folder where possible. Layers "
+               "that "
+               "are off are saved as such. You are asked before a file is replaced."))
         commands.emplace_back(SaveLayers{state.saveAs.data()});
+    const bool asks = !sources.replaces.empty() && sources.replaces == state.saveAs.data();
+    if (asks) {
+        wrappedText(fmt::format("{} exists. Saving replaces it, and its comments are lost.",
+                                sources.replaces.filename().string()),
+                    palette().warning);
+        if (button("Replace it", "Writes the layers into this file."))
+            commands.emplace_back(SaveLayers{state.saveAs.data(), true});
+    }
     endGrey();
 }
 

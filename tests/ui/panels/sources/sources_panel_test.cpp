@@ -9,10 +9,10 @@
 namespace worldy::ui {
 namespace {
 
-EditedLayer editedLayer(const std::string& name) {
-    EditedLayer layer;
-    layer.layer.name = name;
-    layer.layer.files = {"/somewhere/" + name + ".tif"};
+planet::WorldLayer editedLayer(const std::string& name) {
+    planet::WorldLayer layer;
+    layer.name = name;
+    layer.files = {"/somewhere/" + name + ".tif"};
     return layer;
 }
 
@@ -75,7 +75,7 @@ protected:
     }
     static std::vector<std::string> namesOf(const WorldEdit& edit) {
         std::vector<std::string> names;
-        for (const EditedLayer& layer : edit.layers) names.push_back(layer.layer.name);
+        for (const planet::WorldLayer& layer : edit.layers) names.push_back(layer.name);
         return names;
     }
 
@@ -185,6 +185,18 @@ TEST_F(SourcesPanel, saveProposesAFileBesideTheSource) {
     ASSERT_FALSE(commands.empty());
     ASSERT_NE(commands.back().as<SaveLayers>(), nullptr);
     EXPECT_EQ(commands.back().as<SaveLayers>()->file, "/somewhere/world-edited.toml");
+}
+
+TEST_F(SourcesPanel, existingFileIsReplacedOnlyAfterAQuestion) {
+    draw();
+    EXPECT_FALSE(window_.isShown("/Replace it"));
+    const auto asked = [](SourcesView& sources) { sources.replaces = "/somewhere/world-edited.toml"; };
+    const Commands commands = click("/Replace it", asked);
+    ASSERT_FALSE(commands.empty());
+    EXPECT_TRUE(commands.back().as<SaveLayers>()->replaces);
+    // The question is about that name only.
+    draw([](SourcesView& sources) { sources.replaces = "/x/other.toml"; });
+    EXPECT_FALSE(window_.isShown("/Replace it"));
 }
 
 TEST_F(SourcesPanel, unknownSourceHasNoControls) {
