@@ -469,10 +469,11 @@ void TraceFaultFinder::findStepsById(const TraceState& state, int view, const Vi
                 const TraceNodeIndex found = state.find(idOf(beyond));
                 if (found == noTraceNode || found >= memory.drawn.size() || memory.drawn[found] != frames_)
                     continue;
-                // An ancestor that is drawn as well is another fault.
+                // Neither its own ancestor nor a node that is drawn with its descendants: those are other faults.
                 const QuadtreePlace own{place.face, beyond.level, place.x >> (place.level - beyond.level),
                                         place.y >> (place.level - beyond.level)};
-                if (idOf(own) != idOf(beyond)) step(state, view, node, found);
+                if (idOf(own) != idOf(beyond) && memory.below[found] != frames_)
+                    step(state, view, node, found);
                 break;
             }
         }
@@ -481,6 +482,8 @@ void TraceFaultFinder::findStepsById(const TraceState& state, int view, const Vi
 
 void TraceFaultFinder::findStepsByBounds(const TraceState& state, int view, const ViewMemory& memory) {
     std::vector<TraceNodeIndex> byLevel = memory.list;
+    // A node that is drawn with its descendants is another fault.
+    std::erase_if(byLevel, [&](TraceNodeIndex node) { return memory.below[node] == frames_; });
     const auto levelOf = [&](TraceNodeIndex node) { return std::uint64_t{state.nodes()[node].node.level}; };
     std::sort(byLevel.begin(), byLevel.end(), [&](auto a, auto b) { return levelOf(a) < levelOf(b); });
     for (std::size_t coarse = 0; coarse < byLevel.size(); ++coarse) {

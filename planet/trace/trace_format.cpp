@@ -366,8 +366,9 @@ Result<void> checkTraceHeader(std::span<const std::byte, traceHeaderBytes> bytes
     if (version != traceVersion)
         return badInput(fmt::format("version: {} is unknown; expected {}", version, traceVersion));
     const auto size = in.get<std::uint16_t>();
-    if (size != traceHeaderBytes)
-        return badInput(fmt::format("header: {} bytes are wrong; expected {}", size, traceHeaderBytes));
+    const auto reserved = in.get<std::uint32_t>();
+    if (size != traceHeaderBytes || reserved != 0)
+        return badInput("the header is inconsistent; expected an undamaged trace");
     return {};
 }
 

@@ -17,7 +17,7 @@ namespace planet {
 
 inline constexpr TraceNodeIndex noTraceNode = 0xFFFFFFFFu;
 // A node lists no more children than this, so that a hostile trace costs no quadratic time.
-inline constexpr std::size_t maxTraceChildren = 64;
+inline constexpr std::size_t maxTraceChildren = 4096;
 
 // The state of a node's data of one kind.
 struct TraceDataState {
