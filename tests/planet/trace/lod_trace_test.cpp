@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -722,6 +723,27 @@ TEST(LodTraceSocket, aToolThatIsTooSlowLosesWholeFrames) {
     EXPECT_GT(state.droppedTotal(), 0u);
     for (int told = 0; told < frame; ++told)
         EXPECT_NE(state.find(1'000'000 + static_cast<std::uint64_t>(told)), noTraceNode) << told;
+}
+
+// ---- the example of README.md ----
+
+TEST(LodTraceExample, isTheProgramInTheReadme) {
+    const std::filesystem::path source = WORLDY_SOURCE_DIR;
+    const std::string readme = contentOf(source / "planet/trace/README.md");
+    const std::string program = contentOf(source / "tests/trace/readme_example.c");
+    EXPECT_NE(readme.find("```c\n" + program + "```\n"), std::string::npos);
+    EXPECT_LE(std::count(program.begin(), program.end(), '\n'), 45);
+}
+
+TEST(LodTraceExample, tracesSixtyFrames) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "engine.lodtrace";
+    ASSERT_EQ(std::system((std::string(README_EXAMPLE_BINARY) + " " + file.string()).c_str()), 0);
+    const ReadTrace read = readFile(file);
+    EXPECT_EQ(read.problem, "");
+    EXPECT_EQ(eventsOf<TraceFrameEnded>(read.events).size(), 60u);
+    EXPECT_EQ(eventsOf<TraceDrawn>(read.events).size(), 60u);
+    EXPECT_EQ(eventsOf<TracePaged>(read.events).size(), 2u);
 }
 
 // ---- bytes ----
