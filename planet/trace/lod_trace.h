@@ -593,6 +593,7 @@ typedef struct lodt_writer {
     // the block in progress
     lodt_buffer definitions, events;
     int is_key;
+    int is_inside;  // the block begins inside a frame, or after its end
     uint64_t block_frame, block_ns, block_began_ns;
     uint32_t block_frames, block_events;
     // what the deltas of the block refer to
@@ -1266,6 +1267,7 @@ static void lodt_output(lod_trace* trace, const void* bytes, size_t size) {
 
 static void lodt_start_block(lodt_writer* w, uint64_t frame) {
     w->is_key = 0;
+    w->is_inside = 1;
     w->block_frame = w->last_frame = frame;
     w->block_ns = w->last_ns = w->now_ns;
     w->block_began_ns = lod_trace_now_ns();
@@ -1359,7 +1361,7 @@ static void lodt_write_block(lod_trace* trace, int with_events) {
     lodt_put(w, &out, "LTB1", 4);
     lodt_put_number(w, &out, w->definitions.size + events, 4);
     lodt_put_number(w, &out, w->definitions.size, 4);
-    lodt_put_number(w, &out, with_events && w->is_key ? 1 : 0, 4);
+    lodt_put_number(w, &out, (with_events && w->is_key ? 1u : 0u) | (w->is_inside ? 2u : 0u), 4);
     lodt_put_number(w, &out, w->block_frame, 8);
     lodt_put_number(w, &out, w->block_ns, 8);
     lodt_put_number(w, &out, with_events ? w->block_frames : 0, 4);
@@ -1555,13 +1557,14 @@ static void lodt_put_restore(lodt_writer* w, uint32_t index, unsigned kind) {
 }
 
 // Starts a block with all that later events build on, but for the nodes' definitions.
-static void lodt_start_key_block(lod_trace* trace, uint64_t frame) {
+static void lodt_start_key_block(lod_trace* trace, uint64_t frame, int is_inside) {
     lodt_writer* w = &trace->writer;
     uint32_t i;
     unsigned kind;
     lodt_flush_block(trace);
     lodt_start_block(w, frame);
     w->is_key = 1;
+    w->is_inside = is_inside;
     w->description_dirty = 1;
     for (i = 0; i < w->setting_count; ++i) lodt_put_setting(w, &w->settings[i]);
     for (i = 0; i < trace->ring_count; ++i) lodt_put_thread_name(trace, &trace->rings[i]);
@@ -1593,11 +1596,13 @@ static void lodt_frame_began(lod_trace* trace, const lodt_frame* record) {
     // A key is worth its bytes once the blocks since the last one take as many.
     if (!w->is_streaming || w->frames_since_key >= 256 ||
         w->bytes_since_key > (w->key_bytes > 2u << 20 ? w->key_bytes : 4u << 20)) {
-        lodt_start_key_block(trace, w->frame);
+        lodt_start_key_block(trace, w->frame, 0);
     } else if (is_full) {
         lodt_flush_block(trace);
-    } else if (w->events.size == 0) {
+    }
+    if (w->block_events == 0) {
         w->block_frame = w->last_frame = w->frame;
+        w->is_inside = 0;
     }
     w->is_streaming = 1;
     ++w->frames_since_key;
@@ -1926,7 +1931,7 @@ static void lodt_connect(lod_trace* trace) {
     lodt_output(trace, header, sizeof header);
     lodt_start_block(w, w->frame);
     for (i = 0; i < w->entry_count; ++i) lodt_mark_dirty(trace, i);
-    lodt_start_key_block(trace, w->frame);
+    lodt_start_key_block(trace, w->frame, 1);
     // A file begins with the engine, so it has what happens before the first frame. A tool gets whole frames.
     w->is_streaming = w->file != NULL;
     if (!w->is_streaming) lodt_flush_block(trace);

@@ -22,8 +22,8 @@ enum class TraceIds : std::uint8_t { Opaque, Quadtree };
 enum class TraceErrorUnit : std::uint8_t { World, Pixels };
 enum class TraceRequests : std::uint8_t { Node, Children };
 enum class TraceBoundsShape : std::uint8_t { None, Sphere, Box };
-enum class TraceCulling : std::uint8_t { Frustum, Horizon, Occlusion, Other };
-enum class TraceSeverity : std::uint8_t { Info, Warning, Error };
+enum class TraceCulling : std::uint8_t { ByFrustum, ByHorizon, ByOcclusion, Other };
+enum class TraceSeverity : std::uint8_t { Info, Warning, Failure };
 
 // The state of a node's data of one kind.
 enum class TraceData : std::uint8_t { Absent, Requested, Started, Resident, Failed };
@@ -132,7 +132,7 @@ struct TraceDrawn {
 struct TraceCulled {
     std::uint8_t view = 0;
     TraceNodeIndex node = 0;
-    TraceCulling reason = TraceCulling::Frustum;
+    TraceCulling reason = TraceCulling::ByFrustum;
     bool operator==(const TraceCulled&) const = default;
 };
 enum class TraceStep : std::uint8_t { Requested, Started, Arrived, Cancelled, Failed, Evicted };

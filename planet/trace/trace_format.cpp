@@ -20,7 +20,7 @@ enum class Definition : std::uint8_t { Description = 1, Name = 2, Node = 3 };
 enum class Event : std::uint8_t {
     FrameBegin = 1,
     FrameEnd = 2,
-    View = 3,
+    ViewNumbers = 3,
     Drawn = 4,
     Culled = 5,
     SelectView = 6,
@@ -195,7 +195,7 @@ public:
                 return frameBegan();
             case Event::FrameEnd:
                 return frameEnded();
-            case Event::View:
+            case Event::ViewNumbers:
                 return viewTold();
             case Event::Drawn:
                 return drawn();
@@ -320,7 +320,7 @@ private:
     }
     TraceEvent message() {
         TraceMessage event{
-            .severity = enumFrom(in_, flags_, TraceSeverity::Error), .thread = thread_, .text = {}};
+            .severity = enumFrom(in_, flags_, TraceSeverity::Failure), .thread = thread_, .text = {}};
         event.ns = time();
         event.text = in_.text(maxTraceTextBytes);
         return event;
@@ -390,7 +390,8 @@ Result<TraceBlockHeader> traceBlockHeaderFrom(std::span<const std::byte, traceBl
     header.bytes = in.get<std::uint32_t>();
     header.definitionBytes = in.get<std::uint32_t>();
     const auto flags = in.get<std::uint32_t>();
-    header.isKey = flags == 1;
+    header.isKey = (flags & 1) != 0;
+    header.isInside = (flags & 2) != 0;
     header.frame = in.get<std::uint64_t>();
     header.ns = in.get<std::uint64_t>();
     header.frames = in.get<std::uint32_t>();
@@ -399,7 +400,7 @@ Result<TraceBlockHeader> traceBlockHeaderFrom(std::span<const std::byte, traceBl
     if (header.bytes > maxTraceBlockBytes)
         return badInput(fmt::format("block: {} bytes are too many; expected at most {}", header.bytes,
                                     maxTraceBlockBytes));
-    if (header.definitionBytes > header.bytes || flags > 1)
+    if (header.definitionBytes > header.bytes || flags > 3)
         return badInput("the block's header is inconsistent; expected an undamaged trace");
     return header;
 }

@@ -30,6 +30,8 @@ struct TraceBlockHeader {
     std::uint32_t bytes = 0;            // after the header: definitions, then events
     std::uint32_t definitionBytes = 0;  // [0, bytes]
     bool isKey = false;
+    bool isInside =
+        false;  // the first event belongs to the frame, or follows its end; else it begins the frame
     std::uint64_t frame = 0;   // the frame that the first event begins or belongs to
     std::uint64_t ns = 0;      // the first time is told relative to it
     std::uint32_t frames = 0;  // that begin in the block

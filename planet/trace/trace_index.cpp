@@ -75,10 +75,10 @@ std::optional<TraceFrameRange> TraceFile::frames() const {
     const auto first = std::find_if(blocks_.begin(), blocks_.end(), hasFrames);
     if (first == blocks_.end()) return std::nullopt;
     const auto last = std::find_if(blocks_.rbegin(), blocks_.rend(), hasFrames);
-    // A block may begin inside the frame before its first one, and a lost frame leaves a gap, so this can be short of the
-    // last frame by a few; it is never beyond it by more than one.
-    return TraceFrameRange{std::max<std::uint64_t>(first->header.frame, 1),
-                           last->header.frame + last->header.frames - 1};
+    const auto firstOf = [](const TraceBlockHeader& header) {
+        return header.frame + (header.isInside ? 1 : 0);
+    };
+    return TraceFrameRange{firstOf(first->header), firstOf(last->header) + last->header.frames - 1};
 }
 
 std::size_t TraceFile::keyBlockOf(std::uint64_t frame) const {

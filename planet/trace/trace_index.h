@@ -21,7 +21,7 @@ struct TraceBlock {
     TraceBlockHeader header;
 };
 
-// The frames that a file has, by number.
+// The frames that a file has, by number. Lost frames can make `last` too small.
 struct TraceFrameRange {
     std::uint64_t first = 0;
     std::uint64_t last = 0;

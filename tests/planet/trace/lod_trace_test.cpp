@@ -165,7 +165,8 @@ TEST(LodTrace, framesViewsAndDrawnNodesComeBackWithAllBits) {
     const std::vector<TraceDrawn> expected = {
         {0, 0, 0, false, 0}, {15, 2, 1, false, 0}, {15, 1, 0.3f, true, 1.7f}, {0, 3, 0.5f, false, 0}};
     EXPECT_EQ(eventsOf<TraceDrawn>(read.events), expected);
-    EXPECT_EQ(eventsOf<TraceCulled>(read.events), (std::vector<TraceCulled>{{0, 1, TraceCulling::Horizon}}));
+    EXPECT_EQ(eventsOf<TraceCulled>(read.events),
+              (std::vector<TraceCulled>{{0, 1, TraceCulling::ByHorizon}}));
     const auto nodes = eventsOf<TraceNodeTold>(read.events);
     ASSERT_EQ(nodes.size(), 4u);
     EXPECT_EQ(nodes[3].node, (TraceNode{.id = 77}));

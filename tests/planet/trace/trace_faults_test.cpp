@@ -42,18 +42,18 @@ std::vector<TraceFault> faultsIn(const std::filesystem::path& file, const TraceF
 
 // ---- the second client ----
 
-struct Flown {
+struct ClientFlight {
     unsigned long long first = 0, last = 0;  // frames in which the fault is planted
     std::vector<TraceFault> faults;
 };
 
-Flown fly(const std::string& fault) {
+ClientFlight fly(const std::string& fault) {
     const tests::TemporaryFolder folder;
     const std::filesystem::path file = folder / "terrain.lodtrace";
     const std::string command = std::string(GEOMIPMAP_CLIENT_BINARY) + " " + file.string() + " " + fault;
     const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(command.c_str(), "r"), pclose);
     std::array<char, 64> name{};
-    Flown flown;
+    ClientFlight flown;
     EXPECT_EQ(std::fscanf(output.get(), "%63s %llu %llu", name.data(), &flown.first, &flown.last), 3);
     EXPECT_EQ(name.data(), fault);
     flown.faults = faultsIn(file);
@@ -67,7 +67,7 @@ bool isOfPatch(std::uint64_t id) {
 }
 
 // Expects faults of one kind at the faulty patch only, and returns the first.
-const TraceFault& faultAt(const Flown& flown, Kind kind) {
+const TraceFault& faultAt(const ClientFlight& flown, Kind kind) {
     static const TraceFault none;
     for (const TraceFault& fault : flown.faults)
         EXPECT_TRUE(isOfPatch(fault.node) || isOfPatch(fault.other)) << fault.sentence;
@@ -83,7 +83,7 @@ TEST(GeomipmapClient, aCleanFlightHasNoFaults) {
 }
 
 TEST(GeomipmapClient, aNodeDrawnWithItsChildIsFound) {
-    const Flown flown = fly("drawn_twice");
+    const ClientFlight flown = fly("drawn_twice");
     ASSERT_EQ(flown.faults.size(), 1u);
     const TraceFault& fault = faultAt(flown, Kind::DrawnTwice);
     EXPECT_EQ(fault.node, faultyPatch + 2);
@@ -96,7 +96,7 @@ TEST(GeomipmapClient, aNodeDrawnWithItsChildIsFound) {
 }
 
 TEST(GeomipmapClient, aHoleIsFound) {
-    const Flown flown = fly("hole");
+    const ClientFlight flown = fly("hole");
     ASSERT_EQ(flown.faults.size(), 1u);
     const TraceFault& fault = faultAt(flown, Kind::Hole);
     EXPECT_EQ(fault.node, faultyPatch);
@@ -106,7 +106,7 @@ TEST(GeomipmapClient, aHoleIsFound) {
 }
 
 TEST(GeomipmapClient, thrashIsFound) {
-    const Flown flown = fly("thrash");
+    const ClientFlight flown = fly("thrash");
     const TraceFault& fault = faultAt(flown, Kind::Thrash);
     EXPECT_EQ(fault.node, faultyPatch + 1);
     EXPECT_GE(fault.value, 9);
@@ -116,7 +116,7 @@ TEST(GeomipmapClient, thrashIsFound) {
 }
 
 TEST(GeomipmapClient, aLatePageIsFoundAndWhatItStarves) {
-    const Flown flown = fly("late_page");
+    const ClientFlight flown = fly("late_page");
     const TraceFault& late = faultAt(flown, Kind::LatePage);
     EXPECT_EQ(late.node, faultyPatch + 2);
     EXPECT_EQ(late.firstFrame, flown.first);
@@ -129,7 +129,7 @@ TEST(GeomipmapClient, aLatePageIsFoundAndWhatItStarves) {
 }
 
 TEST(GeomipmapClient, aSkippedLevelIsFound) {
-    const Flown flown = fly("skipped_level");
+    const ClientFlight flown = fly("skipped_level");
     const TraceFault& fault = faultAt(flown, Kind::LevelStep);
     EXPECT_EQ(fault.other, faultyPatch);
     EXPECT_EQ(fault.firstFrame, flown.first);
@@ -138,7 +138,7 @@ TEST(GeomipmapClient, aSkippedLevelIsFound) {
 }
 
 TEST(GeomipmapClient, aSelectionThatIgnoresItsTauIsFound) {
-    const Flown flown = fly("ignores_tau");
+    const ClientFlight flown = fly("ignores_tau");
     ASSERT_EQ(flown.faults.size(), 1u);
     const TraceFault& fault = flown.faults[0];
     EXPECT_EQ(fault.kind, Kind::TooCoarse);
@@ -253,7 +253,7 @@ TEST(TraceFaults, aStepOfTwoLevelsIsFoundByIdsAndByBounds) {
 TEST(TraceFaults, aHoleIsOneOnlyIfItIsInViewAndNotCulled) {
     MadeTrace trace;
     const std::vector<TraceNodeIndex> three = {trace.node(1, 0, 0), trace.node(1, 1, 0), trace.node(1, 0, 1)};
-    trace.frame(three, [&] { trace.add(TraceCulled{0, trace.node(1, 1, 1), TraceCulling::Occlusion}); });
+    trace.frame(three, [&] { trace.add(TraceCulled{0, trace.node(1, 1, 1), TraceCulling::ByOcclusion}); });
     EXPECT_EQ(trace.kinds(), std::vector<Kind>{});
     trace.frame(three);
     ASSERT_EQ(trace.kinds(), std::vector<Kind>{Kind::Hole});

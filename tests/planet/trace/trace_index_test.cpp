@@ -237,6 +237,33 @@ TEST(TraceFile, followsAFileThatGrows) {
     EXPECT_EQ(frames, 3u);
 }
 
+TEST(TraceFile, countsFramesAlsoIfBlocksBeginInsideThem) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "made.lodtrace";
+    test::OpenTrace trace(path.string());
+    lod_trace_setting(trace, LOD_TRACE_TAU, 1);
+    for (int frame = 1; frame <= 3; ++frame) {
+        lod_trace_flush(trace, 10'000);
+        lod_trace_frame_begin(trace, frame);
+        lod_trace_flush(trace, 10'000);
+        lod_trace_drawn(trace, 0, 1, 0);
+        lod_trace_frame_end(trace, 1, 1);
+        if (frame == 2) lod_trace_setting(trace, LOD_TRACE_TAU, 2);
+        lod_trace_flush(trace, 10'000);
+        const auto file = TraceFile::open(path);
+        ASSERT_TRUE(file);
+        ASSERT_TRUE(file->frames());
+        EXPECT_EQ(file->frames()->first, 1u);
+        EXPECT_EQ(file->frames()->last, static_cast<std::uint64_t>(frame));
+    }
+    const auto inside = [&] {
+        const auto file = TraceFile::open(path);
+        return std::count_if(file->blocks().begin(), file->blocks().end(),
+                             [](const TraceBlock& block) { return block.header.isInside; });
+    };
+    EXPECT_GE(inside(), 3);
+}
+
 // Ten gigabytes of frames as a file with holes: only headers and a few blocks are there.
 TEST(TraceFile, aFileOfTenGigabytesOpensAndSeeksAtOnce) {
     constexpr std::uint32_t blockBytes = 100u << 20;

@@ -163,7 +163,7 @@ TEST(TraceReader, errorsSayTheByteAndWhatIsWrong) {
          "made: byte 16: block: 4294967295 bytes are too many; expected at most 134217728"},
         {joined({header, traceBlockHeader(4, 5, 0)}),
          "made: byte 16: the block's header is inconsistent" + damaged},
-        {joined({header, traceBlockHeader(4, 4, 0, 2)}),
+        {joined({header, traceBlockHeader(4, 4, 0, 4)}),
          "made: byte 16: the block's header is inconsistent" + damaged},
         {joined({header, traceBlockHeader(1, 0, 99), bytes({4})}),
          "made: byte 16: the checksum of the block does not match" + damaged},
