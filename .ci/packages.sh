@@ -57,6 +57,11 @@ libsquish-dev:s390x     colour tiles from BC1
 libxxhash-dev:s390x     checksums
 libzstd-dev:s390x       lossless colour tiles"
 
+# Cross-compile lod_trace.h for Windows.
+windows_packages="\
+gcc-mingw-w64-x86-64    C compiler for Windows
+g++-mingw-w64-x86-64    C++ compiler for Windows"
+
 # install_missing ASSUME_YES PACKAGES...: lines of "package   what for".
 install_missing() {
     assume_yes=$1

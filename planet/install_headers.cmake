@@ -5,6 +5,7 @@ set(pending
   planet.h planet_tools.h chunk_explanation.h select/lod_select.h base/atomic_file.h
   source/height_source.h source/colour_source.h bake/bake.h bake/file_report.h
   measure/true_error.h measure/edge_gaps.h measure/pop_meter.h measure/pick.h
+  trace/lod_trace.h
   gl/draw/planet_renderer.h gl/draw/chunk_programs.h gl/device/gl_worker.h gl/measure/crack_meter.h)
 set(installed)
 while(pending)

@@ -31,6 +31,10 @@ const std::deque<PagingEvent>& PlanetInspector::pagingHistory() const {
     return state_.run.log.history;
 }
 
+std::uint64_t PlanetInspector::pagingEventCount() const {
+    return state_.run.log.events;
+}
+
 std::vector<FailedBlock> PlanetInspector::failedBlocks() const {
     std::vector<FailedBlock> all;
     for (const BlockPaging* kind : state_.kinds())

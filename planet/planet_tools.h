@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -28,6 +29,9 @@ public:
     std::vector<LoadInProgress> loadingNow() const;
     // Returns the outcomes of the last 1000 requests, oldest first.
     const std::deque<PagingEvent>& pagingHistory() const;
+    // Returns the number of requests that have ended since the planet was opened. Between two calls, as many new events are
+    // at the end of the history, unless it keeps fewer.
+    std::uint64_t pagingEventCount() const;
     // Returns the blocks whose last read failed, at most the latest 4096 of each kind: heights, then colours,
     // then normals, each in the order of failure.
     std::vector<FailedBlock> failedBlocks() const;

@@ -34,6 +34,7 @@
 #include "app/cli/settings_command.h"
 #include "app/cli/shot_command.h"
 #include "app/cli/sweep_command.h"
+#include "app/cli/trace_command.h"
 #include "app/cli/write_plan.h"
 #include "app/data/layer_materials.h"
 #include "app/data/worlds.h"
@@ -147,6 +148,7 @@ void addShot(CLI::App& command, ShotOptions& options, ViewTexts& view) {
 void addFly(CLI::App& command, FlyOptions& options) {
     command.add_option("FILE", options.file, "Chunk file")->required();
     command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
+    command.add_option("--trace", options.trace, "Trace to write of the frames, for worldy trace");
 }
 
 void addBench(CLI::App& command, BenchOptions& options) {
@@ -257,6 +259,33 @@ void addReplay(CLI::App& command, ReplayOptions& options) {
         .add_flag_function("--as-recorded", set(ReplayPaging::AsRecorded),
                            "Blocks arrive in their recorded frames (default)")
         ->excludes(simulated);
+}
+
+void addTrace(CLI::App& command, TraceCommandOptions& options) {
+    command.add_option("FILE", options.file, "Trace, as planet/trace/lod_trace.h writes it")->required();
+    const auto limit = [&command](const char* name, auto& value, double most, const char* help) {
+        command.add_option(name, value, help)->check(number(0, most));
+    };
+    limit("--max-faults", options.limits.faults, 1e9, "Limit: number of faults");
+    limit("--max-error-px", options.limits.errorPx, 1e9,
+          "Limit: largest error on screen of a drawn node, pixels");
+    limit("--max-latency-ms", options.limits.latencyMs, 1e9,
+          "Limit: 99th percentile of the time from request to arrival, ms");
+    limit("--max-thrashes", options.limits.thrashes, 1e9,
+          "Limit: number of level changes that undo another one within 1 s");
+    limit("--max-over-budget", options.limits.overBudget, 100, "Limit: percentage of frames over --frame-ms");
+    limit("--max-dropped", options.limits.dropped, 1e9, "Limit: number of events that the trace lost");
+    command.add_option("--frame-ms", options.budgetMs, "Budget of a frame, CPU and GPU each, ms (16.7)")
+        ->check(number(1e-3, 1e6));
+    command
+        .add_option("--late-s", options.faults.lateAfterS,
+                    "Data that takes longer from request to arrival is a fault, s (0.5)")
+        ->check(number(0, 1e6));
+    command
+        .add_option(
+            "--starved-s", options.faults.starvedAfterS,
+            "A node that is drawn too coarse for longer, because data is missing, is a fault, s (0.5)")
+        ->check(number(0, 1e6));
 }
 
 void addSettings(CLI::App& command, SettingsCommandOptions& options) {
@@ -448,6 +477,7 @@ struct CommandLine {
     CompareTexts compareTexts;
     MakeLayersOptions makeLayers;
     SettingsCommandOptions settings;
+    TraceCommandOptions trace;
     std::map<std::string_view, SharedTexts> shared;  // by command; map nodes do not move
     std::vector<std::filesystem::path> moreInputs;   // files read besides those in the options
 
@@ -483,6 +513,7 @@ struct CommandLine {
         addCompare(at("compare"), compare, compareTexts);
         addMakeLayers(at("make-layers"), makeLayers);
         addSettings(at("settings"), settings);
+        addTrace(at("trace"), trace);
         app.require_subcommand(0, 1);
     }
     // Copies the shared options of a command into its own. Returns the settings.
@@ -581,6 +612,7 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"pops", command("pops", line.pops, runPops, ready)},
         {"audit", command("audit", line.audit, runAudit, ready)},
         {"settings", command("settings", line.settings, runSettings, ready)},
+        {"trace", command("trace", line.trace, runTrace, ready)},
         {"compare", command("compare", line.compare, runCompare,
                             [&](const Settings&) {
                                 for (const SideTexts& side : line.compareTexts)

@@ -26,7 +26,7 @@ constexpr FlightSampling everySeconds(double seconds) {
 }
 constexpr const char* reportHelp = "Report to write, JSON";
 
-constexpr std::array<CommandSpec, 16> commandTable = {{
+constexpr std::array<CommandSpec, 17> commandTable = {{
     {.name = "bake",
      .about = "Bake elevation images or rasters, a world file, six cube faces or procedural terrain into a "
               "chunk file",
@@ -92,6 +92,13 @@ constexpr std::array<CommandSpec, 16> commandTable = {{
      .takes = pictureOptions | takes::output | takes::mustFlight,
      .output = reportHelp,
      .sampling = byFrames(12)},
+    {.name = "trace",
+     .about =
+         "Sum up the trace of any engine's level of detail, and find its faults; exits with 1 if a limit is "
+         "exceeded",
+     .takes = takes::json | takes::output | takes::worst,
+     .output = reportHelp,
+     .worst = "Faults"},
     {.name = "settings",
      .about = "Print all settings with their defaults as a settings file, as a Markdown table, or as JSON",
      .takes = takes::json},

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/base/glossary.h"
@@ -15,6 +17,7 @@
 #include "app/base/stopwatch.h"
 #include "app/flight/flight_path.h"
 #include "app/flight/flight_path_file.h"
+#include "app/flight/planet_trace.h"
 #include "app/scene/frame_report.h"
 #include "app/scene/offscreen.h"
 #include "planet/base/percentile.h"
@@ -160,6 +163,13 @@ Result<void> flyPath(const FlyOptions& options) {
     // The first view is settled, as in a window before the user moves, instead of starting with the root
     // chunks.
     settleAt(*offscreen, path->keys.front().pose, options.view);
+    planet::Planet& planet = *offscreen->scene.planet;
+    std::optional<PlanetTrace> trace;
+    if (!options.trace.empty()) {
+        Result<PlanetTrace> created = PlanetTrace::create(options.trace, planet, path->name);
+        if (!created) return tl::unexpected(created.error());
+        trace.emplace(std::move(*created));
+    }
     const InterruptWatch watch;
     std::vector<FlownFrame> frames;
     for (int i = 0; i < moments->count; ++i) {
@@ -168,6 +178,13 @@ Result<void> flyPath(const FlyOptions& options) {
             flyFrame(*offscreen, *path, moments->timeS(i), i > 0 ? moments->stepS : 0, options.view);
         if (!frame) return tl::unexpected(frame.error());
         frames.push_back(*frame);
+        const FrameStats& stats = frame->stats;
+        if (trace)
+            trace->addFrame(planet, {frame->timeS, stats.frameMs,
+                                     stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs});
+    }
+    if (trace) {
+        if (Result<void> finished = trace->finish(planet); !finished) return finished;
     }
     for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
     if (!options.report.json) printSummary(*path, frames);

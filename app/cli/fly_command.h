@@ -15,6 +15,7 @@ struct FlyOptions {
     std::filesystem::path flight;  // .toml or .flight
     FlightSampling sampling;
     ReportTo report;
+    std::filesystem::path trace;  // of the frames (planet/trace/lod_trace.h); empty: none
     std::filesystem::path shaderFolder;
     PictureSize size;
     ViewSettings view;

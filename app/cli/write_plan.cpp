@@ -124,7 +124,7 @@ CommandFiles filesOf(const FlyOptions& options) {
     addChunkFile(files, options.file);
     files.inputs.insert(files.inputs.end(), {options.flight, options.shaderFolder});
     addLayerFiles(files, options.view);
-    files.outputs = {{options.report.file, OutputKind::Json}};
+    files.outputs = {{options.report.file, OutputKind::Json}, {options.trace, OutputKind::Trace}};
     return files;
 }
 
@@ -176,6 +176,13 @@ CommandFiles filesOf(const SweepOptions& options) {
     const fs::path& table = options.report.file;
     files.outputs = {{table, table.extension() == ".csv" ? OutputKind::Csv : OutputKind::Json},
                      {options.plotOutput, OutputKind::Picture}};
+    return files;
+}
+
+CommandFiles filesOf(const TraceCommandOptions& options) {
+    CommandFiles files;
+    files.inputs.push_back(options.file);
+    files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }
 

@@ -13,6 +13,7 @@
 #include "app/cli/replay_command.h"
 #include "app/cli/shot_command.h"
 #include "app/cli/sweep_command.h"
+#include "app/cli/trace_command.h"
 #include "app/data/layer_materials.h"
 #include "app/data/write_check.h"
 #include "app/settings/view_options.h"
@@ -33,6 +34,7 @@ CommandFiles filesOf(const PopsOptions& options);
 CommandFiles filesOf(const ReplayOptions& options);
 CommandFiles filesOf(const ShotOptions& options);
 CommandFiles filesOf(const SweepOptions& options);
+CommandFiles filesOf(const TraceCommandOptions& options);
 
 // Adds the files that the texts name.
 void addInputs(CommandFiles& files, const ViewTexts& texts);

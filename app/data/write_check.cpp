@@ -93,6 +93,8 @@ bool isOfKind(const fs::path& file, OutputKind kind) {
             return loadViewPart(file).has_value();
         case OutputKind::ItemMap:
             return startOfFile(file, 8) == "counter/";
+        case OutputKind::Trace:
+            return startOfFile(file, 8) == "LODTRACE";
     }
     return false;
 }
@@ -115,6 +117,8 @@ std::string_view nameOf(OutputKind kind) {
             return "a preset";
         case OutputKind::ItemMap:
             return "an item map";
+        case OutputKind::Trace:
+            return "a trace";
     }
     return "";
 }

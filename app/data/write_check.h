@@ -20,6 +20,7 @@ enum class OutputKind : std::uint8_t {
     LayerSet,  // TOML
     Preset,    // TOML, settings files too
     ItemMap,
+    Trace,
 };
 
 struct OutputFile {

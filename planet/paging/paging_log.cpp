@@ -27,6 +27,7 @@ void PagingLog::ended(const PagingRequest& request, PagingOutcome outcome, doubl
     event.priority = request.priority;
     event.type = request.type;
     history.push_back(event);
+    ++events;
     if (history.size() > eventsKept) history.pop_front();
 }
 

@@ -14,6 +14,7 @@ namespace planet {
 
 struct PagingLog {
     std::deque<PagingEvent> history;    // outcomes of the last 1000 requests, oldest first
+    std::uint64_t events = 0;           // all that ever were in the history
     std::vector<std::string> problems;  // at most 1000, for Planet::takeProblems()
     bool keepsMoves = false;
     PagingMoves moves;

@@ -21,6 +21,8 @@
 #include "planet/source/colour_source.h"
 #include "planet/source/height_source.h"
 #include "planet/sphere/view.h"
+#include "planet/trace/lod_trace.h"
+#include "planet/trace/trace_format.h"
 #include "tests/support/chunk_blocks.h"
 #include "tests/support/earth_windows.h"
 #include "tests/support/sparse_source.h"
@@ -272,6 +274,82 @@ void rasters(const fs::path& folder) {
             "</SimpleSource></VRTRasterBand></VRTDataset>"));
 }
 
+// ---- traces ----
+
+// Writes the content of a trace's blocks as trace_fuzz.cpp seals it.
+Bytes traceContent(std::span<const std::byte> stream) {
+    Bytes content;
+    ByteWriter out(content);
+    for (std::size_t at = traceHeaderBytes; at < stream.size();) {
+        const auto header = must(traceBlockHeaderFrom(stream.subspan(at).first<traceBlockHeaderBytes>()));
+        out.put(static_cast<std::uint16_t>(header.definitionBytes));
+        out.put(static_cast<std::uint16_t>(header.bytes - header.definitionBytes));
+        const auto bytes = stream.subspan(at + traceBlockHeaderBytes, header.bytes);
+        content.insert(content.end(), bytes.begin(), bytes.end());
+        at += traceBlockHeaderBytes + header.bytes;
+    }
+    return content;
+}
+
+void traceFrame(lod_trace* trace, int frame) {
+    const auto id = static_cast<std::uint64_t>(frame);
+    const auto node = [&](std::uint64_t of, std::uint32_t level) {
+        lod_trace_node_info info{};
+        info.id = lod_trace_quadtree_id(2, level, static_cast<std::uint32_t>(of), 0);
+        info.has_parent = level > 0;
+        if (level > 0)
+            info.parent = lod_trace_quadtree_id(2, level - 1, static_cast<std::uint32_t>(of / 2), 0);
+        info.level = level;
+        info.bounds = frame % 2 == 0 ? LOD_TRACE_BOUNDS_BOX : LOD_TRACE_BOUNDS_SPHERE;
+        info.axes[0] = info.axes[4] = info.axes[8] = info.radius = 1;
+        info.error = 3;
+        return info;
+    };
+    for (const std::uint32_t level : {0u, 1u, 2u}) {
+        const lod_trace_node_info told = node(level == 0 ? 0 : id % 4, level);
+        lod_trace_node(trace, &told);
+    }
+    const std::uint64_t drawn = lod_trace_quadtree_id(2, 1, static_cast<std::uint32_t>(id % 2), 0);
+    lod_trace_view_info view{};
+    view.eye[2] = view.view[0] = view.view[5] = view.view[10] = view.view[15] = 1;
+    view.projection[0] = view.projection[5] = 1;
+    view.projection[11] = -1;
+    view.viewport[2] = view.viewport[3] = 100 + frame;
+    lod_trace_frame_begin(trace, frame / 10.0);
+    lod_trace_view(trace, frame % 2, &view);
+    lod_trace_drawn(trace, 0, drawn, 0.5f);
+    lod_trace_drawn_px(trace, 1, drawn, 1, 2);
+    lod_trace_culled(trace, 0, drawn + 1, LOD_TRACE_CULLED_HORIZON);
+    lod_trace_requested(trace, drawn, 1, 2);
+    lod_trace_started(trace, drawn, 1);
+    lod_trace_failed(trace, drawn, 1, "disk");
+    lod_trace_arrived(trace, drawn, 0);
+    lod_trace_counter(trace, "counter", frame + 0.5);
+    lod_trace_setting(trace, LOD_TRACE_TAU, 1);
+    lod_trace_setting_text(trace, "mode", "fast");
+    lod_trace_message(trace, LOD_TRACE_WARNING, "message");
+    lod_trace_frame_end(trace, 1, 2);
+}
+
+void traces(const fs::path& folder) {
+    fs::create_directories(folder);
+    const fs::path file = folder / "made.lodtrace";
+    lod_trace* trace = lod_trace_open(file.c_str(), nullptr, nullptr, 0);
+    lod_trace_description description{};
+    description.shape = LOD_TRACE_SPHERE;
+    description.radius = 1;
+    description.ids = LOD_TRACE_IDS_QUADTREE;
+    description.requests = LOD_TRACE_REQUESTS_CHILDREN;
+    lod_trace_describe(trace, &description);
+    lod_trace_thread_begin(trace, "main");
+    for (int frame = 0; frame < 6; ++frame) {
+        traceFrame(trace, frame);
+        if (frame % 2 == 0) lod_trace_flush(trace, 10'000);
+    }
+    lod_trace_close(trace);
+    write(folder / "content", traceContent(read(file)));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -288,5 +366,6 @@ int main(int argc, char** argv) {
     recordedFlights(folder / "flight_record");
     rawFaces(folder / "raw_faces");
     rasters(folder / "raster");
+    traces(folder / "trace");
     return EXIT_SUCCESS;
 }

@@ -1,0 +1,44 @@
+// The command worldy trace: sums up the trace of any engine's level of detail (planet/trace/lod_trace.h) and finds its
+// faults. With limits it is a check. Needs no GL.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/base/report.h"
+#include "planet/trace/trace_report.h"
+
+namespace worldy {
+
+// Limits of a check. An unset one is not checked.
+struct TraceLimits {
+    std::optional<int> faults;         // of all kinds, >= 0
+    std::optional<double> errorPx;     // the worst of a drawn node, in any view, pixels, >= 0
+    std::optional<double> latencyMs;   // the 99th percentile from request to arrival, of any kind, >= 0
+    std::optional<double> thrashes;    // over all views, >= 0
+    std::optional<double> overBudget;  // share of the frames, percent, [0, 100]
+    std::optional<int> dropped;        // events that the trace lost, >= 0
+};
+
+struct TraceCommandOptions {
+    std::filesystem::path file;
+    ReportTo report;
+    int worst = 20;                 // faults to list, >= 0; the report contains all
+    double budgetMs = 1000.0 / 60;  // of a frame, > 0
+    planet::TraceFaultLimits faults;
+    TraceLimits limits;
+};
+
+// Returns true if all limits hold. A trace that is damaged is an Error, after a report of what came before. One that is cut
+// off, as by an engine that was killed, is reported with a message.
+planet::Result<bool> runTrace(const TraceCommandOptions& options);
+
+// The parts of runTrace().
+void printTrace(const TraceCommandOptions& options, const planet::TraceReport& report);
+nlohmann::ordered_json traceJson(const TraceCommandOptions& options, const planet::TraceReport& report);
+// Returns a sentence for each limit that does not hold.
+std::vector<std::string> brokenLimits(const TraceLimits& limits, const planet::TraceReport& report);
+
+}  // namespace worldy

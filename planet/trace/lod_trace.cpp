@@ -1,0 +1,2 @@
+#define LOD_TRACE_IMPLEMENTATION
+#include "planet/trace/lod_trace.h"

@@ -1,0 +1,191 @@
+// What a tool reads from a trace of Worldy equals what Worldy's own panels show.
+#include "app/flight/planet_trace.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "planet/measure/lod_changes.h"
+#include "planet/planet_tools.h"
+#include "planet/trace/trace_report.h"
+#include "tests/support/planet_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+namespace fs = std::filesystem;
+using planet::Planet;
+
+constexpr int flownFrames = 600;
+constexpr double stepS = 1.0 / 60;
+
+struct ShownChunk {
+    float morph = 0;
+    float epsPx = 0;
+    bool operator==(const ShownChunk&) const = default;
+};
+
+// What the panels show of a frame.
+struct ShownFrame {
+    std::map<std::uint64_t, ShownChunk> drawn;
+    std::uint64_t loaded = 0;
+    std::uint64_t evicted = 0;
+    std::uint64_t failed = 0;
+    std::uint64_t requested = 0;
+    double worstEpsPx = 0;
+};
+
+std::uint64_t idOf(const planet::ChunkId& id) {
+    return planet::keyOf(id);
+}
+
+ShownFrame shownFrame(const Planet& planet) {
+    ShownFrame frame;
+    for (const planet::DrawItem& item : planet.selection().draw)
+        frame.drawn[idOf(item.id)] = {item.morph, item.epsPx};
+    const planet::BlockCounters& heights = planet.paging()[planet::BlockKind::Heights];
+    frame.loaded = heights.loaded;
+    frame.evicted = heights.evicted;
+    frame.failed = heights.failed;
+    frame.requested = planet.paging().requested;
+    frame.worstEpsPx = static_cast<double>(planet.selection().counters.worstEpsPx);
+    return frame;
+}
+
+// Flies around the fake planet with a budget that is too small for it, so that blocks come and go.
+class PlanetTraces : public testing::Test {
+protected:
+    void fly(double tauPx = 1) {
+        planet::PagingSettings settings;
+        settings.budgetBytes = planet::bytesOf(180);
+        settings.time = planet::PagingTime::Simulated;
+        settings.badDisk.latencyMs = 40;
+        planet_ = Planet::open(planet::fakePyramid().source(), settings).value();
+        planet::LodSettings lod;
+        lod.tauPx = tauPx;
+        auto trace = PlanetTrace::create(file_, *planet_, "around");
+        ASSERT_TRUE(trace) << trace.error().message;
+        const std::uint64_t requestedBefore = planet_->paging().requested;
+        for (int i = 0; i < flownFrames; ++i) {
+            const double share = static_cast<double>(i) / flownFrames;
+            const planet::ViewInput view{planet::viewAt(30 * std::sin(7 * share), 300 * share, 9000), lod};
+            planet_->step({&view, 1}, planet::noUpload, stepS);
+            changes_.add(planet_->selection(), i * stepS);
+            splits_ += newChanges(planet::LodChangeType::Split, i * stepS);
+            merges_ += newChanges(planet::LodChangeType::Merge, i * stepS);
+            frames_.push_back(shownFrame(*planet_));
+            frames_.back().requested -= requestedBefore;
+            trace->addFrame(*planet_, {i * stepS, 1.5, -1});
+        }
+        const auto finished = trace->finish(*planet_);
+        ASSERT_TRUE(finished) << finished.error().message;
+    }
+
+    std::uint64_t newChanges(planet::LodChangeType type, double nowS) const {
+        std::uint64_t count = 0;
+        for (const planet::LodChange& change : changes_.recent())
+            count += change.type == type && change.timeS == nowS;
+        return count;
+    }
+
+    planet::TraceReport report() const {
+        auto file = planet::TraceFile::open(file_);
+        return planet::reportOfTrace(*file, 16).value();
+    }
+
+    const tests::TemporaryFolder folder_;
+    const fs::path file_ = folder_.path() / "worldy.lodtrace";
+    std::unique_ptr<Planet> planet_;
+    planet::LodChanges changes_;
+    std::vector<ShownFrame> frames_;
+    std::uint64_t splits_ = 0;
+    std::uint64_t merges_ = 0;
+};
+
+TEST_F(PlanetTraces, everyFrameIsTheOneThatWasShown) {
+    fly();
+    auto file = planet::TraceFile::open(file_);
+    ASSERT_TRUE(file) << file.error().message;
+    planet::TraceState state;
+    std::size_t frame = 0;
+    std::uint64_t loaded = 0, evicted = 0, failed = 0, requested = 0;
+    double largestDifference = 0;
+    const auto check = [&] {
+        ASSERT_LT(frame, frames_.size());
+        const ShownFrame& shown = frames_[frame++];
+        const planet::TraceFrameView* const view = state.frame().view(0);
+        ASSERT_NE(view, nullptr);
+        std::map<std::uint64_t, ShownChunk> drawn;
+        for (const planet::TraceDrawn& each : view->drawn) {
+            const planet::TraceNode& node = state.nodes()[each.node].node;
+            ASSERT_TRUE(node.isTold);
+            drawn[node.id] = {each.morph, each.errorPx};
+            const double computedPx = planet::traceErrorPx(*state.description(), node, *view->info);
+            const auto epsPx = static_cast<double>(each.errorPx);
+            largestDifference =
+                std::max(largestDifference, std::abs(computedPx - epsPx) / std::max(epsPx, 1e-9));
+        }
+        EXPECT_EQ(drawn, shown.drawn) << "frame " << frame;
+        for (const planet::TracePagedStep& step : state.frame().paged) {
+            loaded += step.event.step == planet::TraceStep::Arrived;
+            evicted += step.event.step == planet::TraceStep::Evicted;
+            failed += step.event.step == planet::TraceStep::Failed;
+            requested += step.event.step == planet::TraceStep::Requested;
+        }
+        EXPECT_EQ(loaded, shown.loaded) << "frame " << frame;
+        EXPECT_EQ(evicted, shown.evicted) << "frame " << frame;
+        EXPECT_EQ(failed, shown.failed) << "frame " << frame;
+        EXPECT_EQ(requested, shown.requested) << "frame " << frame;
+    };
+    const planet::TraceDecoder::Sink sink = [&](const planet::TraceEvent& event) {
+        if (state.add(event) && !HasFatalFailure()) check();
+    };
+    ASSERT_TRUE(file->seek(0, sink));
+    for (auto more = file->next(sink); more && *more; more = file->next(sink)) {
+    }
+    EXPECT_EQ(frame, frames_.size());
+    EXPECT_LT(largestDifference, 1e-6);
+    EXPECT_GT(loaded, 100u);
+    EXPECT_GT(evicted, 20u);
+}
+
+TEST_F(PlanetTraces, reportCountsTheChangesThatThePanelCounts) {
+    fly();
+    const planet::TraceReport report = this->report();
+    EXPECT_EQ(report.frames, frames_.size());
+    ASSERT_EQ(report.views.size(), 1u);
+    EXPECT_EQ(report.views[0].splits, splits_);
+    EXPECT_EQ(report.views[0].merges, merges_);
+    EXPECT_EQ(report.views[0].thrashes, changes_.thrashTotal());
+    EXPECT_GT(report.views[0].splits, 100u);
+    double worst = 0;
+    for (const ShownFrame& frame : frames_) worst = std::max(worst, frame.worstEpsPx);
+    EXPECT_EQ(report.views[0].worstErrorPx, worst);
+    EXPECT_EQ(report.views[0].tauPx, 1);
+    EXPECT_EQ(report.description->name, "around");
+}
+
+TEST_F(PlanetTraces, selectionOfWorldyHasNoFaultOfItsOwn) {
+    fly();
+    for (const planet::TraceFault& fault : report().faults) {
+        EXPECT_TRUE(fault.kind == planet::TraceFaultKind::Starvation ||
+                    fault.kind == planet::TraceFaultKind::LatePage ||
+                    fault.kind == planet::TraceFaultKind::LevelStep ||
+                    fault.kind == planet::TraceFaultKind::Thrash)
+            << fault.sentence;
+    }
+}
+
+TEST_F(PlanetTraces, fileThatIsNoTraceIsKept) {
+    std::ofstream(file_) << "my notes";
+    planet_ = Planet::open(planet::fakePyramid().source(), {}).value();
+    const auto trace = PlanetTrace::create(file_, *planet_, "around");
+    ASSERT_FALSE(trace);
+    EXPECT_NE(trace.error().message.find(file_.string()), std::string::npos) << trace.error().message;
+    EXPECT_EQ(fs::file_size(file_), 8u);
+}
+
+}  // namespace
+}  // namespace worldy

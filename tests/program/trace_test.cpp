@@ -1,0 +1,95 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class TraceCommand : public testing::Test {
+protected:
+    TraceCommand() {
+        std::ofstream(folder_.path() / "flight.toml")
+            << "name = \"Down\"\n[[key]]\ntime_s = 0\nlatitude_deg = 0\nlongitude_deg = 0\naltitude_m = "
+               "90000\n"
+               "heading_deg = 0\npitch_deg = -60\n[[key]]\ntime_s = 4\nlatitude_deg = 10\nlongitude_deg = "
+               "30\n"
+               "altitude_m = 8000\nheading_deg = 0\npitch_deg = -30\n";
+    }
+    void fly() {
+        bakePlanet(folder_);
+        flown_ = runWorldy(folder_,
+                           "fly planet.chk --flight flight.toml --frames 40 --size 320x200 --tau 1 --trace "
+                           "down.lodtrace -o fly.json");
+        ASSERT_EQ(flown_.exitCode, 0) << flown_.errors;
+    }
+    json trace(const std::string& options = "") {
+        const Ran ran = runWorldy(folder_, "trace down.lodtrace --json " + options);
+        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+        return json::parse(ran.output);
+    }
+
+    const TemporaryFolder folder_;
+    Ran flown_;
+};
+
+TEST_F(TraceCommand, saysOfAFlightWhatTheFlightSaysItself) {
+    fly();
+    const json own = json::parse(contentOf(folder_.path() / "fly.json"));
+    const json traced = trace();
+    EXPECT_EQ(traced["schema_version"], 2);
+    EXPECT_EQ(traced["frames"], 40);
+    EXPECT_EQ(traced["name"], "Down");
+    ASSERT_EQ(traced["view"].size(), 1u);
+    EXPECT_EQ(traced["view"][0]["max_drawn"], own["summary"]["drawn_chunks"]["maximum"]);
+    EXPECT_EQ(traced["view"][0]["max_error_px"], own["summary"]["worst_eps_px"]["maximum"]);
+    EXPECT_EQ(traced["view"][0]["max_triangles"], own["summary"]["ground_triangles"]["maximum"]);
+    EXPECT_EQ(traced["view"][0]["tau_px"], 1);
+    EXPECT_EQ(traced["fault_counts"]["hole"], 0);
+    EXPECT_EQ(traced["fault_counts"]["drawn twice"], 0);
+    EXPECT_TRUE(traced["problem"].is_null());
+    const Ran text = runWorldy(folder_, "trace down.lodtrace");
+    EXPECT_EQ(text.exitCode, 0);
+    EXPECT_THAT(text.output, HasSubstr("Down, 40 frames"));
+}
+
+TEST_F(TraceCommand, isACheckWithLimits) {
+    fly();
+    const Ran broken = runWorldy(folder_, "trace down.lodtrace --max-error-px 0.0001 --max-over-budget 100");
+    EXPECT_EQ(broken.exitCode, 1);
+    EXPECT_THAT(broken.errors, HasSubstr("expected at most 0.0001"));
+    EXPECT_EQ(trace("--max-error-px 1000 --max-dropped 0")["broken_limits"].size(), 0u);
+    const Ran wrong = runWorldy(folder_, "trace down.lodtrace --max-over-budget 101");
+    EXPECT_EQ(wrong.exitCode, 2);
+}
+
+TEST_F(TraceCommand, readsWhatThereIsOfATraceThatIsCutOff) {
+    fly();
+    const fs::path file = folder_.path() / "down.lodtrace";
+    fs::resize_file(file, fs::file_size(file) - 5);
+    const Ran ran = runWorldy(folder_, "trace down.lodtrace");
+    EXPECT_EQ(ran.exitCode, 0);
+    EXPECT_THAT(ran.errors, HasSubstr("down.lodtrace: byte"));
+}
+
+TEST_F(TraceCommand, refusesWhatIsNoTraceAndReplacesNothingElse) {
+    bakePlanet(folder_);
+    const Ran ran = runWorldy(folder_, "trace planet.chk");
+    EXPECT_EQ(ran.exitCode, 2);
+    EXPECT_THAT(ran.errors, HasSubstr("planet.chk"));
+    EXPECT_EQ(runWorldy(folder_, "trace nothing.lodtrace").exitCode, 2);
+    std::ofstream(folder_.path() / "notes.txt") << "mine";
+    const Ran over = runWorldy(folder_, "fly planet.chk --flight flight.toml --frames 2 --trace notes.txt");
+    EXPECT_EQ(over.exitCode, 2);
+    EXPECT_THAT(over.errors, HasSubstr("notes.txt"));
+    EXPECT_EQ(contentOf(folder_.path() / "notes.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace worldy
