@@ -11,7 +11,7 @@ namespace planet {
 namespace {
 
 constexpr double thrashWithinS = 1;
-constexpr int mostAncestors = 64;  // a hostile trace can link parents in a ring
+constexpr int mostParents = 64;  // a hostile trace can link parents in a ring
 
 double sinceS(std::uint64_t fromNs, std::uint64_t toNs) {
     return static_cast<double>(static_cast<std::int64_t>(toNs - fromNs)) * 1e-9;
@@ -20,7 +20,7 @@ double sinceS(std::uint64_t fromNs, std::uint64_t toNs) {
 // Returns whether a set has a node or one of its ancestors.
 bool coversOne(const TraceState& state, const std::unordered_set<TraceNodeIndex>& drawn,
                TraceNodeIndex node) {
-    for (int step = 0; step < mostAncestors && node != noTraceNode; ++step) {
+    for (int step = 0; step < mostParents && node != noTraceNode; ++step) {
         if (drawn.contains(node)) return true;
         node = state.nodes()[node].parent;
     }
@@ -33,7 +33,7 @@ std::unordered_set<TraceNodeIndex> splitNodes(const TraceState& state,
     std::unordered_set<TraceNodeIndex> split;
     for (const TraceNodeIndex node : drawn) {
         TraceNodeIndex ancestor = state.nodes()[node].parent;
-        for (int step = 0; step < mostAncestors && ancestor != noTraceNode; ++step) {
+        for (int step = 0; step < mostParents && ancestor != noTraceNode; ++step) {
             if (!split.insert(ancestor).second) break;
             ancestor = state.nodes()[ancestor].parent;
         }

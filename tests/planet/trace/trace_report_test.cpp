@@ -14,7 +14,7 @@ namespace {
 
 constexpr double noBudget = std::numeric_limits<double>::infinity();
 
-TraceNode toldNode(std::uint64_t id, std::optional<std::uint64_t> parent = {}, std::uint32_t level = 0) {
+TraceNode reportedNode(std::uint64_t id, std::optional<std::uint64_t> parent = {}, std::uint32_t level = 0) {
     TraceNode node;
     node.id = id;
     node.isTold = true;
@@ -34,10 +34,10 @@ protected:
         description.error = TraceErrorUnit::Pixels;
         description.kinds[1] = "colours";
         add(description);
-        add(TraceNodeTold{0, toldNode(10)});
-        add(TraceNodeTold{1, toldNode(11, 10, 1)});
-        add(TraceNodeTold{2, toldNode(12, 10, 1)});
-        add(TraceNodeTold{3, toldNode(13, 11, 2)});
+        add(TraceNodeTold{0, reportedNode(10)});
+        add(TraceNodeTold{1, reportedNode(11, 10, 1)});
+        add(TraceNodeTold{2, reportedNode(12, 10, 1)});
+        add(TraceNodeTold{3, reportedNode(13, 11, 2)});
         add(TraceNamed{0, "tau"});
         add(TraceSet{0, 2.0});
     }
