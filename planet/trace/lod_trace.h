@@ -218,7 +218,8 @@ void lod_trace_drawn_px(lod_trace* trace, int view, uint64_t node, float morph, 
 // frustum to tell a culled node from a hole. reason: LOD_TRACE_CULLED_...
 void lod_trace_culled(lod_trace* trace, int view, uint64_t node, int reason);
 
-// Ends the frame. Milliseconds; negative: unknown.
+// Ends the frame. Milliseconds; negative: unknown. An engine that learns GPU times later tells that of the last frame that
+// it knows.
 void lod_trace_frame_end(lod_trace* trace, double cpu_ms, double gpu_ms);
 
 // Tell the way of a request, in this order: requested, started, then arrived, cancelled or failed; evicted when the data
@@ -791,10 +792,7 @@ static void* lodt_record(lod_trace* trace, lodt_ring** ring_out, uint64_t size, 
     unsigned char* room;
     lodt_head* head;
     *ring_out = ring;
-    if (!ring) {
-        lodt_add(&trace->unringed, 1);
-        return NULL;
-    }
+    if (!ring) return NULL;
     if (ring->lost) {
         lodt_count* count;
         room = lodt_room(ring, sizeof(lodt_count) + size, others_build_on_it);
@@ -820,7 +818,10 @@ static void* lodt_record(lod_trace* trace, lodt_ring** ring_out, uint64_t size, 
 
 static void lodt_drop(lod_trace* trace, lodt_ring* ring) {
     lodt_add(&trace->dropped, 1);
-    if (ring) ++ring->lost;
+    if (ring)
+        ++ring->lost;
+    else
+        lodt_add(&trace->unringed, 1);
 }
 
 static int lodt_refuse(lod_trace* trace) {

@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstring>
 #include <optional>
-#include <string_view>
 
 #include "planet/base/little_endian.h"
 #include "planet/base/try.h"
@@ -177,7 +176,7 @@ TraceView viewFrom(const std::array<std::uint64_t, viewWords>& words) {
     return view;
 }
 
-// Decodes the events of one block: what they are relative to begins anew in each.
+// Decodes the events of one block: the values that they are relative to are reset in each.
 class EventDecoder {
 public:
     EventDecoder(const TraceBlockHeader& header, Cursor& in, std::size_t nodes, std::size_t names)
