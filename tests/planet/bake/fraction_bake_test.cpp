@@ -50,7 +50,7 @@ protected:
         test::writeRaster(
             folder_ / "planet.tif", {4326, 360, 180, -179.5, 89.5, 1},
             [](double longitude, double latitude) {
-                return std::round(4000 * std::sin(0.05 * longitude) * std::cos(0.07 * latitude));
+                return std::round(4000 * std::sin(0.05 * (longitude - 14)) * std::cos(0.07 * (latitude - 45)));
             },
             {.type = GDT_Int16});
     }
