@@ -46,8 +46,7 @@ Result<PlanetSource> planetSource(ChunkFile file) {
     source.minStep = shared->info().minStep;
     source.maxStep = shared->info().maxStep;
     source.chunks = shared->info().chunks;
-    source.loadChildren = [shared](const ChunkId& parent, BlockLocation location,
-                                   std::span<const std::int16_t> parentHeights) {
+    source.loadChildren = [shared](const ChunkId& parent, BlockLocation location, StepsView parentHeights) {
         return shared->readChildren(parent, location, parentHeights);
     };
     if (shared->info().colour) {

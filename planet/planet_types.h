@@ -21,8 +21,8 @@ namespace planet {
 // The content of a planet: a chunk file, or an equivalent for tests and generated planets.
 struct PlanetSource {
     PlanetShape shape;
-    std::int16_t minStep = 0;  // over the whole planet
-    std::int16_t maxStep = 0;
+    std::int32_t minStep = 0;  // over the whole planet
+    std::int32_t maxStep = 0;
     std::uint64_t chunks = 0;                // of all levels; 0: all leaves are at the deepest level
     std::array<ChunkData, faceCount> roots;  // in face order
     LoadChildren loadChildren;

@@ -5,8 +5,8 @@ const float fineCell = 2.0 / float(1 << fineGridLog2);
 
 // The position of a vertex on its face.
 struct GridPlace {
-    vec2 delta;        // u - u0, v - v0, exact
-    vec2 coordinates;  // u, v, exact
+    vec2 delta;        // u - u0, v - v0, to the precision of a float
+    vec2 coordinates;  // u, v, likewise
     vec3 roots;        // of Nowell's mapping at (u, v)
     vec3 turn;         // d - d0, world axes
 };
@@ -36,11 +36,14 @@ void moveToOwningFace(inout int face, inout ivec2 grid) {
     const int side = 1 << fineGridLog2;
     ivec2 fromMiddle = 2 * grid - side;
     if (max(abs(fromMiddle.x), abs(fromMiddle.y)) < side) return;
-    vec3 cube = float(side) * frame.faces[face].normal + float(fromMiddle.x) * frame.faces[face].u +
-                float(fromMiddle.y) * frame.faces[face].v;
-    int axis = abs(cube.x) == float(side) ? 0 : abs(cube.y) == float(side) ? 1 : 2;
-    face = 2 * axis + (cube[axis] < 0.0 ? 1 : 0);
-    grid = (ivec2(dot(cube, frame.faces[face].u), dot(cube, frame.faces[face].v)) + side) / 2;
+    // In integers, because coordinates have more bits than a float.
+    ivec3 cube = side * ivec3(frame.faces[face].normal) + fromMiddle.x * ivec3(frame.faces[face].u) +
+                 fromMiddle.y * ivec3(frame.faces[face].v);
+    int axis = abs(cube.x) == side ? 0 : abs(cube.y) == side ? 1 : 2;
+    face = 2 * axis + (cube[axis] < 0 ? 1 : 0);
+    ivec3 alongU = cube * ivec3(frame.faces[face].u);
+    ivec3 alongV = cube * ivec3(frame.faces[face].v);
+    grid = (ivec2(alongU.x + alongU.y + alongU.z, alongV.x + alongV.y + alongV.z) + side) / 2;
 }
 
 // Returns a position on the sphere. rise: height above the reference step, metres.

@@ -43,7 +43,8 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
         {"chunk_size", planet::chunkSize(report.shape)},
         {"level_count", planet::deepestLevelOf(report.shape) + 1},
         {"radius_m", report.shape.radiusM},
-        {"quantum_m", report.shape.quantumM},
+        {"quantum_m", fileQuantumM(report.shape)},
+        {"finest_quantum_m", report.shape.quantumM},
         {"samples", report.samples},
         {"chunks", report.chunks},
         {"coarsest_leaf_level", report.coarsestLeafLevel},
@@ -56,6 +57,7 @@ void printJson(const planet::HeightSource& source, const BakeOptions& options,
         {"colour_tiles", report.colourTiles},
         {"colour_bytes", report.colourBytes},
         {"colour_notice", report.colourNotice},
+        {"quantum_notice", report.quantumNotice},
         {"reuse", options.settings.reuse.string()},
         {"copied_chunks", report.copiedChunks},
         {"copied_colour_tiles", report.copiedColourTiles},
@@ -78,6 +80,10 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
         fmt::print("{} leaves on levels {} to {}, as fine as the sources\n",
                    planet::leafCountOf(report.chunks), report.coarsestLeafLevel,
                    planet::deepestLevelOf(report.shape));
+    }
+    if (report.shape.fractionBits > 0) {
+        fmt::print("heights in steps of {} m, down to {} m where the source is finer\n",
+                   fileQuantumM(report.shape), report.shape.quantumM);
     }
     fmt::print("{} samples, {}, {:.2f} bits per finest sample, {}\n", report.samples,
                bytesText(static_cast<double>(report.fileBytes)), bitsPerSample(report),
@@ -111,6 +117,7 @@ void printWarnings(const planet::HeightSource& source, const BakeOptions& option
                      report.missingSamples, instead);
     }
     if (!report.colourNotice.empty()) printMessage("worldy: {}\n", report.colourNotice);
+    if (!report.quantumNotice.empty()) printMessage("worldy: {}\n", report.quantumNotice);
     if (!report.reuseNotice.empty()) printMessage("worldy: {}\n", reuseText(report));
 }
 

@@ -110,7 +110,7 @@ Result<void> pageInAll(const std::filesystem::path& chunkFile, std::uint64_t til
     input.colours = {.enabled = true, .texelsPerPixel = 1e9};
     const Stopwatch watch;
     while ((*planet)->paging()[planet::BlockKind::Colours].resident < tiles) {
-        (*planet)->step({&input, 1}, [](std::uint32_t, std::span<const std::int16_t>) {});
+        (*planet)->step({&input, 1}, [](std::uint32_t, planet::StepsView) {});
         pool.renderer.followColours((*planet)->takeTileChanges(planet::BlockKind::Colours));
         if (watch.elapsedMs() > 1000 * loadTimeoutS ||
             (*planet)->paging()[planet::BlockKind::Colours].failed > 0)

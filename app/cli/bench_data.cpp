@@ -94,8 +94,8 @@ Result<void> copyLeaves(const planet::ChunkFile& file, const planet::ChunkData& 
     const auto side = static_cast<std::size_t>(image.side);
     for (std::size_t row = 0; row < size; ++row) {
         const std::size_t start = (chunk.id.y * (size - 1) + row) * side + chunk.id.x * (size - 1);
-        std::copy_n(chunk.heights.begin() + static_cast<std::ptrdiff_t>(row * size), size,
-                    image.steps.begin() + static_cast<std::ptrdiff_t>(start));
+        for (std::size_t i = 0; i < size; ++i)
+            image.steps[start + i] = static_cast<std::int16_t>(chunk.heights[row * size + i]);
     }
     return {};
 }
@@ -123,7 +123,7 @@ std::size_t deltaZstdBytes(const FaceImage& image) {
 std::vector<std::uint16_t> greyOf(const FaceImage& image, std::int16_t darkest) {
     std::vector<std::uint16_t> grey(image.steps.size());
     std::transform(image.steps.begin(), image.steps.end(), grey.begin(),
-                   [&](std::int16_t step) { return static_cast<std::uint16_t>(step - darkest); });
+                   [&](std::int32_t step) { return static_cast<std::uint16_t>(step - darkest); });
     return grey;
 }
 
@@ -166,13 +166,17 @@ Result<void> addSizes(const planet::ChunkFile& file, planet::Face face, const st
         return planet::badInput(fmt::format(
             "{}: has leaves on several levels; expected all leaves at the deepest level", file.name()));
     }
+    if (file.info().shape.fractionBits > 0) {
+        return planet::badInput(fmt::format(
+            "{}: has heights in fractions of its quantum; expected steps of 16 bits", file.name()));
+    }
     const int side = planet::faceCells(file.info().shape) + 1;
     FaceImage image{
         side, std::vector<std::int16_t>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side))};
     const Result<planet::ChunkData> root = file.readRoot(face);
     if (!root) return tl::unexpected(root.error());
     if (Result<void> copied = copyLeaves(file, *root, image); !copied) return copied;
-    const std::vector<std::uint16_t> grey = greyOf(image, file.info().minStep);
+    const std::vector<std::uint16_t> grey = greyOf(image, static_cast<std::int16_t>(file.info().minStep));
     const Result<std::size_t> png = pngBytes(side, grey, folder / "face.png");
     if (!png) return tl::unexpected(png.error());
     sizes.png += *png;
@@ -193,7 +197,7 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
                                                    options.size.widthPx, options.size.heightPx);
     planet::LodSettings lod;
     lod.tauPx = 1e-6;
-    const planet::UploadChunk nowhere = [](std::uint32_t, std::span<const std::int16_t>) {};
+    const planet::UploadChunk nowhere = [](std::uint32_t, planet::StepsView) {};
     planet::PagingSettings paging;
     paging.uploadLimitMs = 100;
     paging.budgetBytes = std::size_t{1} << 30;
@@ -227,7 +231,7 @@ BenchRows benchBake(const planet::HeightSource& source, int faceSize, const Benc
     settings.threads = 1;
     Result<planet::BakeReport> report = planet::bake(source, settings, folder / "timed.chk");
     if (!report) return tl::unexpected(report.error());
-    const double quantumM = report->shape.quantumM;
+    const double quantumM = fileQuantumM(report->shape);
     const std::array<std::function<void()>, 2> jobs = {
         [&] { report = planet::bake(source, settings, folder / "timed.chk"); },
         [&] { static_cast<void>(packSource(source, faceSize, quantumM)); }};

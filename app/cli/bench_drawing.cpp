@@ -206,7 +206,7 @@ void addSelection(planet::Planet& planet, const planet::View& view, double tauPx
     planet::LodSettings lod = lodSettingsOf(benchSettings(1, 256));
     lod.tauPx = tauPx;
     planet.settle(
-        view, lod, [](std::uint32_t, std::span<const std::int16_t>) {}, loadTimeoutS);
+        view, lod, [](std::uint32_t, planet::StepsView) {}, loadTimeoutS);
     constexpr int repeats = 50;
     planet::Selection selection;
     const std::array<std::function<void()>, 1> jobs = {[&] {

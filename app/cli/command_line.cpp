@@ -103,6 +103,12 @@ void addBake(CLI::App& command, BakeOptions& options) {
         .add_option("--quantum", settings.quantumM,
                     "Quantisation step of stored heights, metres (the source's step)")
         ->check(number(1e-9, 1e6));
+    command
+        .add_option("--finest-quantum", settings.finestQuantumM,
+                    "Finest quantisation step of heights where the source is finer than --quantum, metres; a "
+                    "power-of-two fraction of it that is as fine (what the source needs, or --quantum if "
+                    "given)")
+        ->check(number(1e-9, 1e6));
     command.add_option("--threads", settings.threads, "Threads; 0: one per core (0)")
         ->check(CLI::Range(0, 1024));
     command

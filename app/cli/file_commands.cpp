@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,7 +64,9 @@ Json infoJson(const ChunkFile& file, const planet::FileReport& report) {
                  {"face_size", planet::faceCells(info.shape) + 1},
                  {"chunk_size", planet::chunkSize(info.shape)},
                  {"radius_m", info.shape.radiusM},
-                 {"quantum_m", info.shape.quantumM},
+                 {"quantum_m", fileQuantumM(info.shape)},
+                 {"finest_quantum_m", info.shape.quantumM},
+                 {"fraction_bits", info.shape.fractionBits},
                  {"min_height_m", planet::heightM(info.shape, info.minStep)},
                  {"max_height_m", planet::heightM(info.shape, info.maxStep)},
                  {"missing_samples", info.missingSamples},
@@ -96,9 +99,14 @@ void printInfo(const ChunkFile& file, const planet::FileReport& report) {
     fmt::print("{}\n", file.name());
     fmt::print("  source           {}\n", info.source);
     fmt::print("  radius           {} m\n", shape.radiusM);
-    fmt::print("  heights          {} to {} m in steps of {} m\n", planet::heightM(shape, info.minStep),
-               planet::heightM(shape, info.maxStep), shape.quantumM);
-    fmt::print("  faces            {0} x {0} samples\n", planet::faceCells(shape) + 1);
+    const std::string fractions =
+        shape.fractionBits == 0 ? ""
+                                : fmt::format(", down to {} m where the source is finer", shape.quantumM);
+    fmt::print("  heights          {} to {} m in steps of {} m{}\n", planet::heightM(shape, info.minStep),
+               planet::heightM(shape, info.maxStep), fileQuantumM(shape), fractions);
+    const double cellM = shape.radiusM * std::numbers::pi / 2 / planet::faceCells(shape);
+    fmt::print("  faces            {0} x {0} samples, {1} apart on the deepest level\n",
+               planet::faceCells(shape) + 1, fmt::format("{:.3g} m", cellM));
     fmt::print("  chunks           {0} x {0} vertices\n", planet::chunkSize(shape));
     fmt::print("  leaves           {} of {} chunks, on levels {} to {}\n", planet::leafCountOf(info.chunks),
                info.chunks, info.coarsestLeafLevel, planet::deepestLevelOf(shape));

@@ -53,7 +53,8 @@ Result<Baked> bakedFor(const SweepOptions& options, int chunkSize) {
     baked.source = source;
     baked.settings.faceSize = planet::faceCells(info.shape) + 1;
     baked.settings.radiusM = info.shape.radiusM;
-    baked.settings.quantumM = info.shape.quantumM;
+    baked.settings.quantumM = fileQuantumM(info.shape);
+    if (info.shape.fractionBits > 0) baked.settings.finestQuantumM = info.shape.quantumM;
     return baked;
 }
 

@@ -87,6 +87,7 @@ planet::Result<planet::BakeReport> bakeOnTerminal(const planet::HeightSource& so
     });
     if (!problem.empty()) printMessage("worldy: {}; baked without colours\n", problem);
     if (report && !report->colourNotice.empty()) printMessage("worldy: {}\n", report->colourNotice);
+    if (report && !report->quantumNotice.empty()) printMessage("worldy: {}\n", report->quantumNotice);
     return report;
 }
 

@@ -113,6 +113,7 @@ fs::path cachedBakeOf(const fs::path& source, const planet::BakeSettings& settin
     std::string identity =
         fmt::format("{} {} {} {} {}", planet::chunkFileVersion, settings.faceSize.value_or(0),
                     settings.chunkSize, settings.radiusM, settings.quantumM.value_or(0));
+    if (settings.finestQuantumM) identity += fmt::format(" f{}", *settings.finestQuantumM);
     if (settings.compressionLevel != planet::defaultCompressionLevel)
         identity += fmt::format(" c{}", settings.compressionLevel);
     identity += identityOf(sourceSettings);

@@ -23,7 +23,8 @@ BakeRequest requestOf(const planet::PlanetShape& shape) {
     request.settings.faceSize = planet::faceCells(shape) + 1;
     request.settings.chunkSize = planet::chunkSize(shape);
     request.settings.radiusM = shape.radiusM;
-    request.settings.quantumM = shape.quantumM;
+    request.settings.quantumM = fileQuantumM(shape);
+    if (shape.fractionBits > 0) request.settings.finestQuantumM = shape.quantumM;
     return request;
 }
 
@@ -196,12 +197,15 @@ void finishBake(Session& session, const ViewSettings& settings, const Log& log) 
     const std::string colourProblem = bake.job->colourProblem();
     if (!colourProblem.empty()) log->warn("{}; baked without colours", colourProblem);
     if (!report.colourNotice.empty()) log->warn("{}", report.colourNotice);
+    if (!report.quantumNotice.empty()) log->warn("{}", report.quantumNotice);
     bake.data.needsBake = false;
     Result<OpenPlanet> open = openPlanet(session, bake.data, settings, log);
     if (!open) return failBake(session, bake, open.error(), log);
     open->baked = bake.request;
     open->baked.settings.faceSize = planet::faceCells(report.shape) + 1;
-    open->baked.settings.quantumM = report.shape.quantumM;
+    open->baked.settings.quantumM = fileQuantumM(report.shape);
+    open->baked.settings.finestQuantumM.reset();
+    if (report.shape.fractionBits > 0) open->baked.settings.finestQuantumM = report.shape.quantumM;
     open->baked.colour.clear();
     addColours(open->scene.planet->file().info(), open->data, open->baked);
     open->compressionKnown = true;

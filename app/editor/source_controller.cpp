@@ -200,6 +200,7 @@ void bakeEdited(SourceController& sources, const OpenPlanet& open, Notices& noti
     // The finest samples may be those of another layer now, and the heights may have another range.
     request.settings.faceSize.reset();
     request.settings.quantumM.reset();
+    request.settings.finestQuantumM.reset();
     next.push_back(ui::StartBake{std::move(request)});
 }
 

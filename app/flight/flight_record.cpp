@@ -58,10 +58,33 @@ void putText(ByteWriter& out, std::string_view text) {
     for (const char letter : text) out.put(letter);
 }
 
-void putId(ByteWriter& out, const ChunkId& id) {
+// The levels of colour blocks are stored after those of chunks of the first 21 levels.
+constexpr int firstColourLevel = 21;
+static_assert(firstColourLevel + planet::maxColourLevel < 32);
+// A chunk of a deeper level is stored with an invalid face; its own face takes the place of the level, and the level
+// follows.
+constexpr unsigned deepFace = 6;
+// A block of normals is stored with an invalid face; its own face takes the place of the level, and the level
+// follows.
+constexpr unsigned normalsFace = 7;
+static_assert(normalsFace >= planet::faceCount && deepFace >= planet::faceCount);
+
+void putWithLevel(ByteWriter& out, unsigned invalidFace, const ChunkId& id) {
+    out.put(static_cast<std::uint8_t>(invalidFace * 32 + static_cast<unsigned>(id.face)));
+    out.put(id.level);
+    putVarint(out, id.x);
+    putVarint(out, id.y);
+}
+
+void putIdInByte(ByteWriter& out, const ChunkId& id) {
     out.put(static_cast<std::uint8_t>(static_cast<unsigned>(id.face) * 32 + id.level));
     putVarint(out, id.x);
     putVarint(out, id.y);
+}
+
+void putId(ByteWriter& out, const ChunkId& id) {
+    if (id.level >= firstColourLevel) return putWithLevel(out, deepFace, id);
+    putIdInByte(out, id);
 }
 
 void putIds(ByteWriter& out, const std::vector<ChunkId>& ids) {
@@ -69,24 +92,11 @@ void putIds(ByteWriter& out, const std::vector<ChunkId>& ids) {
     for (const ChunkId& id : ids) putId(out, id);
 }
 
-// The levels of colour blocks are stored after those of chunks.
-constexpr int firstColourLevel = planet::maxLevel + 1;
-static_assert(firstColourLevel + planet::maxColourLevel < 32);
-// A block of normals is stored with an invalid face; its own face takes the place of the level, and the level
-// follows.
-constexpr unsigned normalsFace = 7;
-static_assert(normalsFace >= planet::faceCount);
-
 void putBlock(ByteWriter& out, const BlockId& block) {
     ChunkId id = block.parent;
-    if (block.kind == BlockKind::Normals) {
-        out.put(static_cast<std::uint8_t>(normalsFace * 32 + static_cast<unsigned>(id.face)));
-        out.put(id.level);
-        putVarint(out, id.x);
-        putVarint(out, id.y);
-        return;
-    }
+    if (block.kind == BlockKind::Normals) return putWithLevel(out, normalsFace, id);
     if (block.kind == BlockKind::Colours) id.level = static_cast<std::uint8_t>(id.level + firstColourLevel);
+    if (block.kind == BlockKind::Colours) return putIdInByte(out, id);
     putId(out, id);
 }
 
@@ -213,8 +223,8 @@ public:
         BlockKind kind = first % 32 >= firstColourLevel ? BlockKind::Colours : BlockKind::Heights;
         unsigned face = first / 32;
         int level = static_cast<int>(first % 32) - (kind == BlockKind::Colours ? firstColourLevel : 0);
-        if (face == normalsFace) {
-            kind = BlockKind::Normals;
+        if (face == normalsFace || face == deepFace) {
+            kind = face == normalsFace ? BlockKind::Normals : BlockKind::Heights;
             face = first % 32;
             level = get<std::uint8_t>();
         }

@@ -60,7 +60,7 @@ ViewSettings settingsBefore(const FlightRecord& record) {
 }  // namespace
 
 ReplayedPlanet headless(planet::Planet& planet) {
-    return {planet, [](std::uint32_t, std::span<const std::int16_t>) {},
+    return {planet, [](std::uint32_t, planet::StepsView) {},
             [&planet](const ViewSettings& settings, bool paused, planet::PagingTime time) {
                 planet.setExaggeration(settings.surface.exaggeration);
                 return planet.setPaging(pagingSettingsOf(settings, paused, time)).map([](bool) {});

@@ -47,7 +47,7 @@ DepthSteps depthSteps(const ProbeInput& input, const glm::dvec3& positionM) {
 ProbedVertex probeHit(const ProbeInput& input, const planet::SurfaceHit& hit) {
     const planet::DrawItem& item = *itemOf(input.selection, hit.id);
     const planet::PlanetShape& shape = input.tree.shape;
-    const std::vector<std::int16_t>& heights = *input.tree.nodes[item.node].heights;
+    const planet::StepsView heights = *input.tree.nodes[item.node].heights;
     const glm::ivec2 vertex = planet::nearestVertex(shape, item, heights, input.stitched, hit.positionM);
     const planet::VertexPrecision precision =
         planet::vertexPrecision(shape, planet::vertexFrame(shape, input.view.eyeM), item, heights,

@@ -33,7 +33,7 @@ glm::dvec3 edgePointM(const planet::ChunkTree& tree, const planet::ChunkNode& no
     const double cell = square.side / last;
     const glm::dvec3 direction = planet::sphereFromCube(
         planet::cubePoint(node.id.face, square.u + column * cell, square.v + row * cell));
-    const std::int16_t step = (*node.heights)[static_cast<std::size_t>(row * (last + 1) + column)];
+    const std::int32_t step = (*node.heights)[static_cast<std::size_t>(row * (last + 1) + column)];
     return planet::positionM(tree.shape, direction, planet::heightM(tree.shape, step) + lift);
 }
 

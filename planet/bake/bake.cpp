@@ -26,6 +26,7 @@
 #include "planet/base/stopwatch.h"
 #include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
+#include "planet/source/height_quanta.h"
 
 namespace planet {
 
@@ -184,7 +185,7 @@ private:
     }
 
     // Opens the unfinished file, with a temporary header. anyStep: a step of the planet.
-    Result<ChunkFile> writtenSoFar(std::int16_t anyStep) {
+    Result<ChunkFile> writtenSoFar(std::int32_t anyStep) {
         ChunkFileInfo info;
         info.shape = bake_.shape;
         info.minStep = info.maxStep = anyStep;
@@ -196,8 +197,13 @@ private:
 
     static ChunkData dataOf(const BakedChunk& chunk) {
         const ChunkEntry& entry = chunk.entry;
-        return {chunk.id,      entry.deltaCM,  entry.deltaTightM, entry.minStep,
-                entry.maxStep, entry.children, chunk.heights};
+        return {chunk.id,
+                entry.deltaCM,
+                entry.deltaTightM,
+                entry.minStep,
+                entry.maxStep,
+                entry.children,
+                Steps(std::span<const std::int32_t>(chunk.heights))};
     }
 
     const BakeContext& bake_;
@@ -319,7 +325,7 @@ Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, Ato
         info.maxStep = std::max(info.maxStep, root.entry.maxStep);
         std::vector<std::byte> block;
         putIndex(block, {&root.entry, 1}, file.size());
-        encodeGrid(root.heights, chunkSize(bake.shape), block);
+        encodeGrid(root.heights, chunkSize(bake.shape), bake.shape.fractionBits, block);
         ByteWriter(block).put(rootChecksum(block, root.id.face));
         info.roots[static_cast<std::size_t>(face)] = {file.size(), static_cast<std::uint32_t>(block.size())};
         TRY(file.append(block));
@@ -367,6 +373,19 @@ std::optional<EarlierBake> earlierBake(const HeightSource& source, const BakeSet
     notice = fmt::format("{}: nothing was copied from it, because the source cannot say what it depends on",
                          settings.reuse.string());
     return std::nullopt;
+}
+
+// Says that the finest part of the source needs a finer quantum than the steps allow; empty if it does not.
+std::string quantumNotice(const HeightSource& source, const BakeSettings& settings,
+                          const PlanetShape& shape) {
+    if (settings.quantumM && !settings.finestQuantumM) return {};
+    const double neededM =
+        std::max(settings.finestQuantumM.value_or(0), finestQuantumOf(source, shape.radiusM));
+    if (shape.quantumM <= neededM * (1 + 1e-6)) return {};
+    return fmt::format(
+        "{}: its finest heights need a quantum of {} m, but heights in [{}, {}] m allow no finer one than {} "
+        "m",
+        source.description, neededM, source.minM, source.maxM, shape.quantumM);
 }
 
 }  // namespace
@@ -420,6 +439,7 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
         TRY(writeLevelImages(output, settings.debugLevelsFolder));
     }
     report.shape = shape;
+    report.quantumNotice = quantumNotice(source, settings, shape);
     report.samples = sampleCountOf(info);
     report.chunks = info.chunks;
     report.coarsestLeafLevel = info.coarsestLeafLevel;

@@ -43,6 +43,7 @@ using BakeProgressCallback = std::function<bool(const BakeProgress&)>;
 
 struct BakeReport {
     PlanetShape shape;
+    std::string quantumNotice;  // the source needs a finer quantum than the steps allow; empty: it does not
     std::uint64_t samples = 0;  // of all leaves, each distinct
     std::uint64_t chunks = 0;
     int coarsestLeafLevel = 0;  // the deepest level if the tree is dense

@@ -142,7 +142,7 @@ Result<double> rootBytes(const BakeContext& bake, BakeScratch& scratch) {
     for (const Face face : allFaces) {
         TRY_ASSIGN(const auto tile, bakeTile(bake, {{face, 0, 0, 0}, 0}, scratch));
         std::vector<std::byte> coded;
-        encodeGrid(tile.root.heights, chunkSize(bake.shape), coded);
+        encodeGrid(tile.root.heights, chunkSize(bake.shape), bake.shape.fractionBits, coded);
         bytes += static_cast<double>(coded.size() + 8);
     }
     return bytes;

@@ -22,7 +22,7 @@ namespace planet {
 namespace {
 
 // Increase it whenever the same source and settings give other bytes than before.
-constexpr std::uint32_t bakeRevision = 1;
+constexpr std::uint32_t bakeRevision = 2;
 
 // The most levels between a copied subtree and the roots of its units. Chunks at most chunkCellsLog2 levels above
 // their units are never searched for their tight metric, so all blocks under them lie together.
@@ -66,11 +66,14 @@ bool dependsOnFilter(const SourcePart& part, const DirectionCone& cap, double sp
 std::string differenceOf(const PlanetShape& old, const PlanetShape& now) {
     if (old.radiusM != now.radiusM)
         return fmt::format("its radius is {} m, and that of the new bake {} m", old.radiusM, now.radiusM);
-    if (old.quantumM != now.quantumM || old.baseHeightM != now.baseHeightM) {
+    if (fileQuantumM(old) != fileQuantumM(now) || old.baseHeightM != now.baseHeightM) {
         return fmt::format(
             "it stores heights in steps of {} m from {} m, and the new bake in steps of {} m from {} m",
-            old.quantumM, old.baseHeightM, now.quantumM, now.baseHeightM);
+            fileQuantumM(old), old.baseHeightM, fileQuantumM(now), now.baseHeightM);
     }
+    if (old.fractionBits != now.fractionBits)
+        return fmt::format("its finest quantum is {} m, and that of the new bake {} m", old.quantumM,
+                           now.quantumM);
     if (old.chunkCellsLog2 == now.chunkCellsLog2) return {};
     return fmt::format("its chunk size is {}, and that of the new bake {}", chunkSize(old), chunkSize(now));
 }
@@ -93,7 +96,7 @@ public:
         Copied copied;
         copied.tile.root = {root_.id,
                             {root_.deltaCM, root_.deltaTightM, root_.minStep, root_.maxStep, root_.children},
-                            root_.heights};
+                            root_.heights.view().toVector()};
         if (!root_.children.exists()) return copied;
         TRY_ASSIGN(first_, firstBlock());
         const std::uint64_t end = root_.children.offset + root_.children.size;
@@ -161,7 +164,7 @@ private:
 
 // Puts the heights of a unit's leaves together, in steps.
 Result<void> gatherLeaves(const ChunkFile& file, const PlanetShape& shape, const TreeUnit& unit,
-                          const ChunkData& chunk, std::span<std::int16_t> steps) {
+                          const ChunkData& chunk, std::span<std::int32_t> steps) {
     if (chunk.children.exists() != (chunk.id.level < unit.leafLevel))
         return badInput(fmt::format("{}: has changed while it was read; bake it again", file.name()));
     if (chunk.children.exists()) {
@@ -175,8 +178,8 @@ Result<void> gatherLeaves(const ChunkFile& file, const PlanetShape& shape, const
     const std::size_t column = (chunk.id.x - (unit.root.x << levels)) * cells;
     const std::size_t row = (chunk.id.y - (unit.root.y << levels)) * cells;
     for (std::size_t j = 0; j <= cells; ++j) {
-        const auto from = std::span(chunk.heights).subspan(j * (cells + 1), cells + 1);
-        std::ranges::copy(from, steps.begin() + static_cast<std::ptrdiff_t>((row + j) * side + column));
+        const StepsView from = chunk.heights.view().subspan(j * (cells + 1), cells + 1);
+        from.copyTo(steps.subspan((row + j) * side + column, cells + 1));
     }
     return {};
 }
@@ -188,8 +191,8 @@ std::uint64_t cellsOf(const TreeUnit& unit, const PlanetShape& shape) {
 
 Result<Copied> copyStep(const BakeContext& bake, const ChunkFile& file, const BakeStep& step,
                         std::uint64_t cells, BakeScratch& scratch) {
-    // The codec needs at most 2 bytes a sample, and each level has a quarter of the samples of the next.
-    TRY_ASSIGN(auto copied, SubtreeCopy(bake, file, step.old).run(8 * cells + (1u << 20)));
+    // The codec needs at most 4 bytes a sample, and each level has a quarter of the samples of the next.
+    TRY_ASSIGN(auto copied, SubtreeCopy(bake, file, step.old).run(16 * cells + (1u << 20)));
     for (const TreeUnit& unit : step.units)
         copied.tile.deepestUnitLevel = std::max<int>(copied.tile.deepestUnitLevel, unit.root.level);
     if (step.kind != BakeStep::Kind::Measure) return copied;
@@ -336,7 +339,7 @@ void EarlierBake::compareRanges(const SourceRecord& old, const SourceRecord& now
     // A step of the file is up to half a quantum off, and the ranges are rounded to floats.
     const double largestM =
         std::max({std::abs(old.minM), std::abs(old.maxM), std::abs(now.minM), std::abs(now.maxM)});
-    const double marginM = 2 * file_.info().shape.quantumM + 1e-6 * largestM;
+    const double marginM = 2 * fileQuantumM(file_.info().shape) + 1e-6 * largestM;
     minM_ = std::max(old.minM, now.minM) + marginM;
     maxM_ = std::min(old.maxM, now.maxM) - marginM;
 }

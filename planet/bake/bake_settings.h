@@ -26,7 +26,10 @@ struct BakeSettings {
     int chunkSize = 33;             // vertices per side: 17, 33, 65 or 129
     double radiusM = earthRadiusM;  // (0, 1e9]
     std::optional<double>
-        quantumM{};   // unset: the source's step, or for floats the finest that holds its range
+        quantumM{};  // unset: the source's step, or for floats the finest that holds its range
+    // The quantum, metres, that heights of finer parts of the source may have at the finest, as a power-of-two fraction of
+    // the file's. Unset: as fine as they need, but the file's if quantumM is set.
+    std::optional<double> finestQuantumM{};
     int threads = 0;  // 0: one per core
     int compressionLevel = defaultCompressionLevel;
     // Folder to write each level of each face to that has chunks everywhere, as 16-bit PNGs; empty: none.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <span>
+#include <tuple>
 
 #include "planet/bake/quantise.h"
 #include "planet/base/check_range.h"
@@ -19,9 +20,9 @@ namespace planet {
 
 namespace {
 
-std::span<std::int16_t> joinQuarters(const PlanetShape& shape,
+std::span<std::int32_t> joinQuarters(const PlanetShape& shape,
                                      std::span<const BakedChunk, quadrantCount> children,
-                                     std::vector<std::int16_t>& refined) {
+                                     std::vector<std::int32_t>& refined) {
     const auto side = static_cast<std::size_t>(chunkSize(shape));
     const std::size_t refinedSide = 2 * side - 1;
     refined.resize(refinedSide * refinedSide);
@@ -31,9 +32,9 @@ std::span<std::int16_t> joinQuarters(const PlanetShape& shape,
     return refined;
 }
 
-std::vector<std::int16_t> everyOther(std::span<const std::int16_t> refined, std::size_t side) {
+std::vector<std::int32_t> everyOther(std::span<const std::int32_t> refined, std::size_t side) {
     const std::size_t refinedSide = 2 * side - 1;
-    std::vector<std::int16_t> coarse(side * side);
+    std::vector<std::int32_t> coarse(side * side);
     for (std::size_t j = 0; j < side; ++j) {
         for (std::size_t i = 0; i < side; ++i) coarse[j * side + i] = refined[2 * j * refinedSide + 2 * i];
     }
@@ -41,7 +42,7 @@ std::vector<std::int16_t> everyOther(std::span<const std::int16_t> refined, std:
 }
 
 BakedChunk cutLeaf(const BakeContext& bake, const ChunkId& id, const SampleTile& tile,
-                   std::span<const std::int16_t> steps) {
+                   std::span<const std::int32_t> steps) {
     const auto side = static_cast<std::size_t>(chunkSize(bake.shape));
     const SampleTile square = tileOf(bake.shape, id, id.level);
     BakedChunk leaf;
@@ -52,9 +53,7 @@ BakedChunk cutLeaf(const BakeContext& bake, const ChunkId& id, const SampleTile&
         const auto from = steps.subspan(at, side);
         std::copy(from.begin(), from.end(), leaf.heights.begin() + static_cast<std::ptrdiff_t>(j * side));
     }
-    const auto [lowest, highest] = std::minmax_element(leaf.heights.begin(), leaf.heights.end());
-    leaf.entry.minStep = *lowest;
-    leaf.entry.maxStep = *highest;
+    std::tie(leaf.entry.minStep, leaf.entry.maxStep) = lowestAndHighest(leaf.heights);
     return leaf;
 }
 
@@ -79,6 +78,10 @@ Result<void> checkBakeSettings(const BakeSettings& settings) {
         return badInput(fmt::format("threads: {} is out of range; expected [1, 1024] or 0 (one per core)",
                                     settings.threads));
     }
+    if (settings.finestQuantumM && !(*settings.finestQuantumM > 0 && *settings.finestQuantumM <= 1e6)) {
+        return badInput(fmt::format("finest quantum: {} m is out of range; expected (0, 1e6] m",
+                                    *settings.finestQuantumM));
+    }
     return checkRange("levels per tile", settings.tileLevels.value_or(0), 0, 10);
 }
 
@@ -100,12 +103,21 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
                                     face, chunk,
                                     (1 << std::min(maxFaceCellsLog2, maxLevel + shape.chunkCellsLog2)) + 1));
     }
+    if (!source.finestCells && shape.faceCellsLog2 > maxDenseFaceCellsLog2) {
+        return badInput(fmt::format(
+            "face size: {} is too large for a source that is equally fine everywhere; expected at most {}",
+            face, (1 << maxDenseFaceCellsLog2) + 1));
+    }
     if (!(settings.radiusM > 0 && settings.radiusM <= 1e9)) {
         return badInput(fmt::format("radius: {} m is out of range; expected (0, 1e9] m", settings.radiusM));
     }
     shape.radiusM = settings.radiusM;
     TRY(chooseQuantum(source, settings.quantumM, shape));
-    if (shape.radiusM + heightM(shape, -32768) <= 0 && shape.radiusM + source.minM <= 0) {
+    // A quantum that is asked for counts for the whole file, unless finer ones are asked for too.
+    const bool isFixed = settings.quantumM && !settings.finestQuantumM;
+    if (!isFixed) chooseFractions(source, settings.finestQuantumM.value_or(0), shape);
+    if (shape.radiusM + heightM(shape, lowestStepOf(shape.fractionBits)) <= 0 &&
+        shape.radiusM + source.minM <= 0) {
         return badInput(
             fmt::format("{}: its lowest height, {} m, is below the centre of a planet of radius {} m",
                         source.description, source.minM, shape.radiusM));
@@ -119,10 +131,8 @@ int bakeThreads(const BakeSettings& settings) {
 
 Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeScratch& scratch) {
     const SampleTile tile = tileOf(bake.shape, unit.root, unit.leafLevel);
-    scratch.sampledM.resize(samplesIn(tile));
     scratch.steps.resize(samplesIn(tile));
-    TRY(bake.source.sample(tile, scratch.sampledM));
-    TRY(quantise(bake.shape, bake.source, scratch.sampledM, scratch.steps));
+    TRY(sampleSteps(bake.shape, bake.source, tile, scratch.sampled, scratch.steps));
     BakedTile result;
     result.deepestUnitLevel = unit.root.level;
     result.offAboveM = measureUnit(bake.shape, unit, scratch);
@@ -173,7 +183,7 @@ BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
     const std::size_t start = blocks.size();
     const std::uint64_t offset = origin + start;
     putIndex(blocks, entries, offset);
-    encodeRefinement(refined, chunkCells(bake.shape), bake.compressionLevel, blocks);
+    encodeRefinement(refined, chunkCells(bake.shape), bake.compressionLevel, bake.shape.fractionBits, blocks);
     ByteWriter(blocks).put(siblingChecksum(std::span(blocks).subspan(start), parent));
     chunk.entry.children = {offset, static_cast<std::uint32_t>(blocks.size() - start)};
     return chunk;

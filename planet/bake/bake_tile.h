@@ -11,6 +11,7 @@
 #include "planet/bake/bake_settings.h"
 #include "planet/bake/bake_tree.h"
 #include "planet/bake/finest_distance.h"
+#include "planet/bake/quantise.h"
 #include "planet/base/result.h"
 #include "planet/format/chunk_file_types.h"
 #include "planet/format/height_codec.h"
@@ -27,7 +28,7 @@ inline constexpr std::uint64_t provisionalOrigin = chunkFileHeaderBytes;
 struct BakedChunk {
     ChunkId id;
     ChunkEntry entry;
-    std::vector<std::int16_t> heights;
+    std::vector<std::int32_t> heights;
 };
 
 struct BakedTile {
@@ -41,9 +42,9 @@ struct BakedTile {
 
 // Memory reused between calls.
 struct BakeScratch {
-    std::vector<float> sampledM;
-    std::vector<std::int16_t> steps;
-    std::vector<std::int16_t> refined;
+    SampledHeights sampled;
+    std::vector<std::int32_t> steps;
+    std::vector<std::int32_t> refined;
     GeometricErrorScratch geometry;
     TileDistances distances;
 };
@@ -64,7 +65,7 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
 int bakeThreads(const BakeSettings& settings);
 
 // Samples the square of a unit on the grid of its leaves, and bakes it bottom-up. The Error names the
-// source's file, or a height that does not fit into 16 bits.
+// source's file, or a height that exceeds the limits of steps.
 Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeScratch& scratch);
 
 // Measures the largest distances of a unit's finest samples from the chunks above it, as BakedTile::offAboveM has them,

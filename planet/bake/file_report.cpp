@@ -129,7 +129,7 @@ public:
     // A complete subtree, whose leaves have one level (TreeUnit).
     struct Unit {
         int leafLevel = 0;
-        std::vector<std::int16_t> finest;  // the samples of its square on the leaves' grid
+        std::vector<std::int32_t> finest;  // the samples of its square on the leaves' grid
         std::vector<Met> met;              // its chunks two or more levels above the leaves
     };
     struct Below {
@@ -140,7 +140,7 @@ public:
         std::array<std::optional<Unit>, quadrantCount> units;
     };
 
-    static Unit unitOf(const ChunkData& leaf) { return {leaf.id.level, leaf.heights, {}}; }
+    static Unit unitOf(const ChunkData& leaf) { return {leaf.id.level, leaf.heights.view().toVector(), {}}; }
 
     // Checks a chunk after everything under it. Returns the chunk as a unit if it is one.
     std::optional<Unit> leave(const ChunkData& chunk, Below&& below, const ReportProblem& report) {
@@ -357,7 +357,7 @@ private:
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const double step = square.side / chunkCells(shape_);
         for (std::size_t i = 0; i < chunk.heights.size(); ++i) {
-            const std::int16_t height = chunk.heights[i];
+            const std::int32_t height = chunk.heights[i];
             const std::size_t row = i / side;
             const std::size_t column = i % side;
             const glm::dvec3 direction =
@@ -389,7 +389,7 @@ private:
                                             {Edge::North, square.u, north, east, north, side * (side - 1), 1},
                                             {Edge::West, square.u, square.v, square.u, north, 0, side},
                                             {Edge::East, east, square.v, east, north, side - 1, side}}};
-        std::vector<std::int16_t> samples(side);
+        std::vector<std::int32_t> samples(side);
         for (const Side& edge : sides) {
             const glm::dvec3 from = cubePoint(chunk.id.face, edge.u0, edge.v0);
             const glm::dvec3 to = cubePoint(chunk.id.face, edge.u1, edge.v1);
@@ -418,7 +418,7 @@ private:
     double checkError(const ChunkData& chunk, const std::array<ChunkData, quadrantCount>& children) {
         const auto side = static_cast<std::size_t>(chunkSize(shape_));
         const std::size_t refinedSide = 2 * side - 1;
-        std::vector<std::int16_t> refined(refinedSide * refinedSide);
+        std::vector<std::int32_t> refined(refinedSide * refinedSide);
         float childrenDeltaM = 0;
         for (std::size_t q = 0; q < children.size(); ++q) {
             const ChunkData& child = children[q];
@@ -440,10 +440,8 @@ private:
 
     Result<void> compareWithSource(const ChunkData& chunk) {
         const SampleTile tile = tileOf(shape_, chunk.id, chunk.id.level);
-        std::vector<float> heights(chunk.heights.size());
-        std::vector<std::int16_t> steps(chunk.heights.size());
-        TRY(source_->sample(tile, heights));
-        TRY(quantise(shape_, *source_, heights, steps));
+        std::vector<std::int32_t> steps(chunk.heights.size());
+        TRY(sampleSteps(shape_, *source_, tile, sampled_, steps));
         report_.leafSamples += steps.size();
         int largest = 0;
         for (std::size_t i = 0; i < steps.size(); ++i)
@@ -470,6 +468,7 @@ private:
     int coarsestLeafLevel_ = maxLevel;
     TightVerifier tight_;
     GeometricErrorScratch scratch_;
+    SampledHeights sampled_;
     std::unordered_map<EdgeKey, SeenEdge, EdgeHash> openEdges_;  // edges that have been seen from one side
 };
 

@@ -172,7 +172,7 @@ int coarsestLevelOfTiles(int tileLevel, const PlanetShape& shape) {
     return std::max(0, tileLevel - shape.chunkCellsLog2);
 }
 
-void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int16_t> finest,
+void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int32_t> finest,
                  GeometricErrorScratch& scratch, TileDistances& out) {
     const auto cells = static_cast<std::size_t>(faceCells(shape) >> tile.level);
     assert(finest.size() == (cells + 1) * (cells + 1));

@@ -54,7 +54,7 @@ struct TileDistances {
 
 // Measures a tile. finest: the (c + 1)^2 samples of its square in steps, row-major, c = faceCells >>
 // tile.level.
-void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int16_t> finest,
+void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int32_t> finest,
                  GeometricErrorScratch& scratch, TileDistances& out);
 
 // Reads the four children of a chunk that has children. Their tight metrics are known.

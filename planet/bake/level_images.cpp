@@ -84,7 +84,7 @@ private:
         });
     }
 
-    std::uint16_t grey(std::int16_t step) const {
+    std::uint16_t grey(std::int32_t step) const {
         const int lowest = file_.info().minStep;
         const int range = std::max(1, file_.info().maxStep - lowest);
         return static_cast<std::uint16_t>(static_cast<std::int64_t>(step - lowest) * 65535 / range);

@@ -7,12 +7,18 @@
 #include <cmath>
 #include <limits>
 
+#include "planet/base/try.h"
+#include "planet/source/height_quanta.h"
+
 namespace planet {
 
 namespace {
 
+// The file's quantum is such that 16 bits hold all its multiples.
 constexpr double lowestStep = std::numeric_limits<std::int16_t>::min();
 constexpr double highestStep = std::numeric_limits<std::int16_t>::max();
+
+constexpr double slack = 1e-6;  // quanta that differ by rounding only are equal
 
 // Returns the smallest of ..., 0.1, 0.2, 0.5, 1, 2, 5, ... that is not below the value.
 double nextOneTwoFive(double value) {
@@ -62,29 +68,96 @@ Result<void> chooseQuantum(const HeightSource& source, std::optional<double> wan
                     source.description, source.minM, source.maxM, quantum, finestQuantum(rangeM)));
 }
 
-Result<void> quantise(const PlanetShape& shape, const HeightSource& source, std::span<const float> heightsM,
-                      std::span<std::int16_t> steps) {
-    assert(heightsM.size() == steps.size());
-    const double perMetre = 1 / shape.quantumM;
-    double lowestM = source.maxM;
-    double highestM = source.minM;
+void chooseFractions(const HeightSource& source, double finestM, PlanetShape& shape) {
+    const double quantumM = shape.quantumM;
+    const double neededM = std::max(finestM, finestQuantumOf(source, shape.radiusM));
+    const double farthestM =
+        std::max(std::abs(source.minM - shape.baseHeightM), std::abs(source.maxM - shape.baseHeightM));
+    while (shape.fractionBits < maxFractionBits && shape.quantumM > neededM * (1 + slack) &&
+           2 * farthestM / shape.quantumM <= farthestStep) {
+        ++shape.fractionBits;
+        shape.quantumM = std::ldexp(quantumM, -shape.fractionBits);
+    }
+}
+
+int fractionBitsFor(const PlanetShape& shape, double neededM) {
+    double quantumM = fileQuantumM(shape);
+    int bits = 0;
+    for (; bits < shape.fractionBits && quantumM > neededM * (1 + slack); ++bits) quantumM /= 2;
+    return bits;
+}
+
+namespace {
+
+struct Range {
+    double lowestM = std::numeric_limits<double>::infinity();
+    double highestM = -std::numeric_limits<double>::infinity();
+};
+
+// Rounds heights to multiples of 2^shift steps.
+Range roundTo(const PlanetShape& shape, const HeightSource& source, std::span<const float> heightsM,
+              int shift, std::span<std::int32_t> steps) {
+    const double perMetre = 1 / std::ldexp(shape.quantumM, shift);
+    const double lowest = lowestStepOf(shape.fractionBits) / (1 << shift);
+    const double highest = highestStepOf(shape.fractionBits) / (1 << shift);
+    const std::int32_t scale = 1 << shift;
+    Range range;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const double height = std::clamp(static_cast<double>(heightsM[i]), source.minM, source.maxM);
-        lowestM = std::min(lowestM, height);
-        highestM = std::max(highestM, height);
-        const double step = std::clamp((height - shape.baseHeightM) * perMetre, lowestStep, highestStep);
+        range.lowestM = std::min(range.lowestM, height);
+        range.highestM = std::max(range.highestM, height);
+        const double step = std::clamp((height - shape.baseHeightM) * perMetre, lowest, highest);
         // The value is made positive first, so that truncation rounds to nearest. Unlike a function call,
         // this vectorises.
-        steps[i] = static_cast<std::int16_t>(static_cast<int>(step - lowestStep + 0.5) +
-                                             static_cast<int>(lowestStep));
+        steps[i] = (static_cast<int>(step - lowest + 0.5) + static_cast<int>(lowest)) * scale;
     }
+    return range;
+}
+
+// Does the same with a shift for each height, in runs of equal ones.
+Range roundEach(const PlanetShape& shape, const HeightSource& source, std::span<const float> heightsM,
+                std::span<const float> neededM, std::span<std::int32_t> steps) {
+    Range all;
+    for (std::size_t begin = 0; begin < steps.size();) {
+        std::size_t end = begin + 1;
+        while (end < steps.size() && neededM[end] == neededM[begin]) ++end;
+        const int bits = fractionBitsFor(shape, static_cast<double>(neededM[begin]));
+        const Range run = roundTo(shape, source, heightsM.subspan(begin, end - begin),
+                                  shape.fractionBits - bits, steps.subspan(begin, end - begin));
+        all = {std::min(all.lowestM, run.lowestM), std::max(all.highestM, run.highestM)};
+        begin = end;
+    }
+    return all;
+}
+
+}  // namespace
+
+Result<void> quantise(const PlanetShape& shape, const HeightSource& source, std::span<const float> heightsM,
+                      std::span<const float> neededM, std::span<std::int32_t> steps) {
+    assert(heightsM.size() == steps.size() && (neededM.empty() || neededM.size() == steps.size()));
+    const Range range = neededM.empty() ? roundTo(shape, source, heightsM, shape.fractionBits, steps)
+                                        : roundEach(shape, source, heightsM, neededM, steps);
     const double halfStepM = shape.quantumM / 2;
-    const bool tooLow = lowestM < heightM(shape, -32768) - halfStepM;
-    if (!tooLow && highestM <= heightM(shape, 32767) + halfStepM) return {};
-    const double worstM = tooLow ? lowestM : highestM;
+    const double lowestM = heightM(shape, lowestStepOf(shape.fractionBits));
+    const double highestM = heightM(shape, highestStepOf(shape.fractionBits));
+    const bool tooLow = range.lowestM < lowestM - halfStepM;
+    if (!tooLow && !(range.highestM > highestM + halfStepM)) return {};
+    const double worstM = tooLow ? range.lowestM : range.highestM;
     return badInput(fmt::format(
-        "{}: height {} m exceeds 16 bits of quantum {} m, [{}, {}] m; choose a larger quantum",
-        source.description, worstM, shape.quantumM, heightM(shape, -32768), heightM(shape, 32767)));
+        "{}: height {} m exceeds {} bits of quantum {} m, [{}, {}] m; choose a larger quantum",
+        source.description, worstM, shape.fractionBits == 0 ? 16 : 24, shape.quantumM, lowestM, highestM));
+}
+
+Result<void> sampleSteps(const PlanetShape& shape, const HeightSource& source, const SampleTile& tile,
+                         SampledHeights& scratch, std::span<std::int32_t> steps) {
+    scratch.heightsM.resize(steps.size());
+    if (shape.fractionBits == 0) {
+        TRY(source.sample(tile, scratch.heightsM));
+        return quantise(shape, source, scratch.heightsM, {}, steps);
+    }
+    scratch.neededM.resize(steps.size());
+    TRY(sampleWithQuanta(source, tile, shape.radiusM, scratch.heightsM, scratch.neededM));
+    return quantise(shape, source, scratch.heightsM, scratch.neededM, steps);
 }
 
 }  // namespace planet

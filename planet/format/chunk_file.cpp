@@ -18,45 +18,54 @@ namespace planet {
 
 namespace {
 
-// Returns an upper bound of the size of valid blocks: the codec never needs 4 bytes per sample.
+// Returns an upper bound of the size of valid blocks: the codec never needs more than 4 bytes per sample.
 std::uint64_t largestBlockBytes(const PlanetShape& shape) {
     const auto side = static_cast<std::uint64_t>(2 * chunkCells(shape) + 1);
     return side * side * 4 + 1024;
 }
 
 // Returns one of the four quarters of a refined grid.
-std::vector<std::int16_t> cutQuarter(std::span<const std::int16_t> fine, int cells, int quadrant) {
+Steps cutQuarter(const StepsView& fine, int cells, int quadrant) {
     const auto side = static_cast<std::size_t>(cells) + 1;
     const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
     const std::size_t column = (quadrant & 1) != 0 ? side - 1 : 0;
     const std::size_t row = (quadrant & 2) != 0 ? side - 1 : 0;
+    if (fine.isWide()) {
+        std::vector<std::int32_t> quarter(side * side);
+        for (std::size_t j = 0; j < side; ++j)
+            fine.subspan((row + j) * fineSide + column, side)
+                .copyTo(std::span(quarter).subspan(j * side, side));
+        return Steps(std::span<const std::int32_t>(quarter));
+    }
     std::vector<std::int16_t> quarter(side * side);
     for (std::size_t j = 0; j < side; ++j) {
-        const auto from = fine.subspan((row + j) * fineSide + column, side);
+        const auto from = fine.narrow().subspan((row + j) * fineSide + column, side);
         std::copy(from.begin(), from.end(), quarter.begin() + static_cast<std::ptrdiff_t>(j * side));
     }
-    return quarter;
+    return Steps(quarter, fine.base(), fine.scale());
 }
 
 // Returns whether the values of a chunk with children are in range.
-bool isSane(const ChunkEntry& entry) {
+bool isSane(const ChunkEntry& entry, int fractionBits) {
     return std::isfinite(entry.deltaCM) && entry.deltaCM >= 0 && entry.deltaTightM >= 0 &&
-           entry.deltaTightM <= entry.deltaCM && entry.minStep <= entry.maxStep && entry.children.size > 0;
+           entry.deltaTightM <= entry.deltaCM && entry.minStep <= entry.maxStep &&
+           entry.minStep >= lowestStepOf(fractionBits) && entry.maxStep <= highestStepOf(fractionBits) &&
+           entry.children.size > 0;
 }
 
 void describeLeaf(ChunkData& chunk) {
-    const auto [lowest, highest] = std::minmax_element(chunk.heights.begin(), chunk.heights.end());
-    chunk.minStep = *lowest;
-    chunk.maxStep = *highest;
+    const auto [lowest, highest] = lowestAndHighest(chunk.heights);
+    chunk.minStep = lowest;
+    chunk.maxStep = highest;
 }
 
 // Returns false if the entry is out of range.
-bool describe(ChunkData& chunk, const ChunkEntry& entry) {
+bool describe(ChunkData& chunk, const ChunkEntry& entry, int fractionBits) {
     if (!entry.children.exists()) {
         describeLeaf(chunk);
         return true;
     }
-    if (!isSane(entry)) return false;
+    if (!isSane(entry, fractionBits)) return false;
     chunk.deltaCM = entry.deltaCM;
     chunk.deltaTightM = entry.deltaTightM;
     chunk.minStep = entry.minStep;
@@ -155,18 +164,18 @@ Result<ChunkData> ChunkFile::readRoot(Face face) const {
     const std::span content(block);
     const auto index = indexFrom(content, 1, deepestLevelOf(info_.shape) > 0, location.offset);
     if (!index) return invalid(root.id, index.error().message);
-    root.heights.resize(static_cast<std::size_t>(chunkVertexCount(info_.shape)));
-    if (auto decoded = decodeGrid(content.subspan(index->bytes), chunkSize(info_.shape), root.heights);
-        !decoded) {
-        return invalid(root.id, decoded.error().message);
-    }
-    if (!describe(root, index->entries[0]))
+    auto decoded =
+        decodeGrid(content.subspan(index->bytes), chunkSize(info_.shape), info_.shape.fractionBits);
+    if (!decoded) return invalid(root.id, decoded.error().message);
+    root.heights = *std::move(decoded);
+    if (!describe(root, index->entries[0], info_.shape.fractionBits))
         return invalid(root.id, "its errors, extremes or children are out of range");
     return root;
 }
 
-Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
-    const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const {
+Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(const ChunkId& parent,
+                                                                     BlockLocation location,
+                                                                     StepsView parentHeights) const {
     assert(parent.level < deepestLevelOf(info_.shape));
     TRY_ASSIGN(const auto block,
                readContent(parent, false, location, {1 + checksumBytes, largestBlockBytes(info_.shape)}));
@@ -175,19 +184,16 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(
     const auto index = indexFrom(content, quadrantCount, aboveDeepest, location.offset);
     if (!index) return invalid(parent, index.error().message);
     const int cells = chunkCells(info_.shape);
-    const auto fineSide = static_cast<std::size_t>(cells) * 2 + 1;
-    std::vector<std::int16_t> fine(fineSide * fineSide);
-    if (auto decoded = decodeRefinement(content.subspan(index->bytes), parentHeights, cells, fine);
-        !decoded) {
-        return invalid(parent, decoded.error().message);
-    }
+    const auto fine =
+        decodeRefinement(content.subspan(index->bytes), parentHeights, cells, info_.shape.fractionBits);
+    if (!fine) return invalid(parent, fine.error().message);
     std::array<ChunkData, quadrantCount> children;
     for (int quadrant = 0; quadrant < quadrantCount; ++quadrant) {
         const auto q = static_cast<std::size_t>(quadrant);
         ChunkData& child = children[q];
         child.id = childOf(parent, quadrant);
-        child.heights = cutQuarter(fine, cells, quadrant);
-        if (!describe(child, index->entries[q]))
+        child.heights = cutQuarter(*fine, cells, quadrant);
+        if (!describe(child, index->entries[q], info_.shape.fractionBits))
             return invalid(child.id, "its errors, extremes or children are out of range");
     }
     return children;
@@ -211,7 +217,7 @@ Result<std::array<ChunkEntry, quadrantCount>> ChunkFile::entriesFrom(const Chunk
     if (!index) return invalid(parent, index.error().message);
     for (std::size_t q = 0; q < index->entries.size(); ++q) {
         const ChunkEntry& entry = index->entries[q];
-        if (entry.children.exists() && !isSane(entry))
+        if (entry.children.exists() && !isSane(entry, info_.shape.fractionBits))
             return invalid(childOf(parent, static_cast<int>(q)), "its index entry is out of range");
     }
     return index->entries;

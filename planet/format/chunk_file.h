@@ -35,6 +35,7 @@
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 
 namespace planet {
 
@@ -57,8 +58,8 @@ public:
 
     // Reads the four children of a chunk above the deepest level, in quadrant order. location: of their
     // block.
-    Result<std::array<ChunkData, quadrantCount>> readChildren(
-        const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) const;
+    Result<std::array<ChunkData, quadrantCount>> readChildren(const ChunkId& parent, BlockLocation location,
+                                                              StepsView parentHeights) const;
 
     // Reads only the entries of a chunk's four children, without the heights and the checksum. The entry of a
     // leaf has no children; its extremes are unknown without its heights.

@@ -128,7 +128,12 @@ std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileByte
 // Returns an empty text if the shape is within the limits of a bake.
 std::string shapeProblem(const PlanetShape& shape) {
     if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("radius {} m", shape.radiusM);
-    if (!(shape.quantumM > 0 && shape.quantumM <= 1e6)) return fmt::format("quantum {} m", shape.quantumM);
+    if (shape.fractionBits > maxFractionBits) {
+        return fmt::format("quantum of 2^{} steps; expected at most 2^{}", shape.fractionBits,
+                           maxFractionBits);
+    }
+    const double quantumM = fileQuantumM(shape);
+    if (!(shape.quantumM > 0 && quantumM <= 1e6)) return fmt::format("quantum {} m", quantumM);
     if (!(std::abs(shape.baseHeightM) <= 1e9)) return fmt::format("base height {} m", shape.baseHeightM);
     if (shape.chunkCellsLog2 < 4 || shape.chunkCellsLog2 > 7) {
         return fmt::format("chunks of 2^{} cells per side; expected 2^4 to 2^7", shape.chunkCellsLog2);
@@ -192,8 +197,8 @@ Result<BlockIndex> indexFrom(std::span<const std::byte> block, int chunks, bool 
         ChunkEntry& entry = index.entries[q];
         entry.deltaCM = in.get<float>();
         entry.deltaTightM = in.get<float>();
-        entry.minStep = in.get<std::int16_t>();
-        entry.maxStep = in.get<std::int16_t>();
+        entry.minStep = in.get<std::int32_t>();
+        entry.maxStep = in.get<std::int32_t>();
         entry.children.size = in.get<std::uint32_t>();
         entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
         if (!entry.children.exists()) return badInput("its index entry is out of range");
@@ -249,14 +254,16 @@ std::array<std::byte, chunkFileHeaderBytes> headerBytes(const ChunkFileInfo& inf
     out.put(static_cast<std::uint32_t>(chunkFileHeaderBytes));
     out.put(fileBytes);
     out.put(info.shape.radiusM);
-    out.put(info.shape.quantumM);
+    out.put(fileQuantumM(info.shape));
     out.put(info.shape.baseHeightM);
     out.put(static_cast<std::uint8_t>(info.shape.faceCellsLog2));
     out.put(static_cast<std::uint8_t>(info.shape.chunkCellsLog2));
-    out.put(info.minStep);
-    out.put(info.maxStep);
     out.put(static_cast<std::uint8_t>(info.coarsestLeafLevel));
     out.put(static_cast<std::uint8_t>(info.hasSourceRecord));
+    out.put(static_cast<std::uint8_t>(info.shape.fractionBits));
+    for (int i = 0; i < 3; ++i) out.put(std::uint8_t{0});
+    out.put(info.minStep);
+    out.put(info.maxStep);
     out.put(info.missingSamples);
     out.put(info.chunks);
     for (const BlockLocation& root : info.roots) {
@@ -309,17 +316,22 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
     }
     ChunkFileInfo info;
     info.shape.radiusM = in.get<double>();
-    info.shape.quantumM = in.get<double>();
+    const auto quantumM = in.get<double>();
     info.shape.baseHeightM = in.get<double>();
     info.shape.faceCellsLog2 = in.get<std::uint8_t>();
     info.shape.chunkCellsLog2 = in.get<std::uint8_t>();
+    info.coarsestLeafLevel = in.get<std::uint8_t>();
+    info.hasSourceRecord = in.get<std::uint8_t>() == 1;
+    info.shape.fractionBits = in.get<std::uint8_t>();
+    in.take(3);
+    info.shape.quantumM = quantumM;
+    if (info.shape.fractionBits <= maxFractionBits)
+        info.shape.quantumM = std::ldexp(quantumM, -info.shape.fractionBits);
     if (const std::string problem = shapeProblem(info.shape); !problem.empty()) {
         return badInput(fmt::format("{}: invalid header: {}; bake it again", name, problem));
     }
-    info.minStep = in.get<std::int16_t>();
-    info.maxStep = in.get<std::int16_t>();
-    info.coarsestLeafLevel = in.get<std::uint8_t>();
-    info.hasSourceRecord = in.get<std::uint8_t>() == 1;
+    info.minStep = in.get<std::int32_t>();
+    info.maxStep = in.get<std::int32_t>();
     info.missingSamples = in.get<std::uint64_t>();
     info.chunks = in.get<std::uint64_t>();
     if (const std::string problem = treeProblem(info); !problem.empty())
@@ -333,7 +345,8 @@ Result<ChunkFileInfo> infoFromHeader(std::span<const std::byte, chunkFileHeaderB
         return badInput(
             fmt::format("{}: invalid header: heights below the planet's centre; bake it again", name));
     }
-    if (!hasText || info.minStep > info.maxStep) {
+    if (!hasText || info.minStep > info.maxStep || info.minStep < lowestStepOf(info.shape.fractionBits) ||
+        info.maxStep > highestStepOf(info.shape.fractionBits)) {
         return badInput(fmt::format("{}: the header is inconsistent; bake it again", name));
     }
     auto colour = readColour(in);

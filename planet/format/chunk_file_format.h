@@ -15,7 +15,7 @@
 
 namespace planet {
 
-inline constexpr std::size_t chunkEntryBytes = 24;
+inline constexpr std::size_t chunkEntryBytes = 28;
 inline constexpr std::size_t checksumBytes = 8;
 inline constexpr std::size_t colourEntryBytes = 16;
 

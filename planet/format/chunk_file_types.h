@@ -12,11 +12,12 @@
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/cube_sphere.h"
 #include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 
 namespace planet {
 
 inline constexpr std::size_t chunkFileHeaderBytes = 512;
-inline constexpr std::uint32_t chunkFileVersion = 4;
+inline constexpr std::uint32_t chunkFileVersion = 5;
 
 // The location of a block in the file. Offset 0 is the header, so it means "none".
 struct BlockLocation {
@@ -34,10 +35,10 @@ struct ChunkData {
     // The tight metric: the largest distance of the surfaces of this chunk and its descendants from the
     // finest data at the same place; metres, [0, deltaCM]; 0 at a leaf.
     float deltaTightM = 0;
-    std::int16_t minStep = 0;  // lowest and highest finest sample under this chunk
-    std::int16_t maxStep = 0;
-    BlockLocation children;             // none at a leaf
-    std::vector<std::int16_t> heights;  // chunkSize x chunkSize steps, row-major, rows upwards along v
+    std::int32_t minStep = 0;  // lowest and highest finest sample under this chunk
+    std::int32_t maxStep = 0;
+    BlockLocation children;  // none at a leaf
+    Steps heights;           // chunkSize x chunkSize steps, row-major, rows upwards along v
 };
 
 // The index entry of a chunk with children. The file stores no entry for a leaf: its δc and tight metric are
@@ -45,8 +46,8 @@ struct ChunkData {
 struct ChunkEntry {
     float deltaCM = 0;      // metres, finite, >= 0
     float deltaTightM = 0;  // metres, [0, deltaCM]
-    std::int16_t minStep = 0;
-    std::int16_t maxStep = 0;
+    std::int32_t minStep = 0;
+    std::int32_t maxStep = 0;
     BlockLocation children;
 };
 
@@ -77,8 +78,8 @@ struct ChunkFileInfo {
     PlanetShape shape;
     std::uint64_t chunks = faceCount;  // of all levels
     int coarsestLeafLevel = 0;         // [0, deepestLevelOf(shape)]; equal to it if the tree is dense
-    std::int16_t minStep = 0;          // over the whole planet
-    std::int16_t maxStep = 0;
+    std::int32_t minStep = 0;          // over the whole planet
+    std::int32_t maxStep = 0;
     std::uint64_t missingSamples = 0;  // source samples without data that were filled
     std::array<BlockLocation, faceCount> roots;
     std::string source;  // description of the baked source, for users; at most 200 bytes of UTF-8

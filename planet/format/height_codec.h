@@ -5,6 +5,12 @@
 // (height_prediction.h), and the differences are entropy coded (height_residual_coder.h). A block depends
 // only on its coarse grid. Grids are row-major.
 //
+// Where the quantum of a file has fractions (planet_shape.h), most blocks are coarser than its finest fraction. A
+// block is coded in multiples of 2^shift steps, the largest that all its samples are multiples of, relative to a
+// base that follows from the coarse grid. Both let the samples of most blocks fit into 16 bits. A block of which a
+// part is coarse may be split: its samples are coded without their low bits, and the low bits apart. A block that
+// fits in neither way is stored uncoded, with 4 bytes a sample.
+//
 // Pure functions, any thread. Encoding and decoding are bit-identical on every machine.
 #pragma once
 
@@ -14,6 +20,8 @@
 #include <vector>
 
 #include "planet/base/result.h"
+#include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 
 namespace planet {
 
@@ -29,19 +37,24 @@ inline constexpr int maxCompressionLevel = 3;
 inline constexpr int maxCoarseCells = 128;
 inline constexpr int maxGridSize = 2 * maxCoarseCells + 1;
 
-// Appends the coded refinement to out: at most 2 bytes for each missing sample, and 1 more. fine: (2c + 1)^2
-// samples, c in [1, maxCoarseCells].
-void encodeRefinement(std::span<const std::int16_t> fine, int coarseCells, int compressionLevel,
-                      std::vector<std::byte>& out);
+// Appends the coded refinement to out: at most 2 bytes for each missing sample, and 1 more; with fractions, 4 bytes and
+// 1 more. fine: (2c + 1)^2 samples, c in [1, maxCoarseCells]. fractionBits: of the planet's shape; the samples lie
+// within its limits (lowestStepOf, highestStepOf).
+void encodeRefinement(std::span<const std::int32_t> fine, int coarseCells, int compressionLevel,
+                      int fractionBits, std::vector<std::byte>& out);
 
 // Rebuilds the fine grid from the coarse grid and exactly the coded bytes. Malicious bytes give an Error or a
-// wrong grid, never a read out of bounds. After an Error the content of fine is undefined.
-Result<void> decodeRefinement(std::span<const std::byte> coded, std::span<const std::int16_t> coarse,
-                              int coarseCells, std::span<std::int16_t> fine);
+// wrong grid within the limits of the planet's steps, never a read out of bounds.
+Result<Steps> decodeRefinement(std::span<const std::byte> coded, const StepsView& coarse, int coarseCells,
+                               int fractionBits);
 
 // Code a whole grid of size x size samples without a coarser grid, as for the six root chunks. size: a power
 // of two plus one, [2, maxGridSize].
-void encodeGrid(std::span<const std::int16_t> grid, int size, std::vector<std::byte>& out);
-Result<void> decodeGrid(std::span<const std::byte> coded, int size, std::span<std::int16_t> grid);
+void encodeGrid(std::span<const std::int32_t> grid, int size, int fractionBits, std::vector<std::byte>& out);
+Result<Steps> decodeGrid(std::span<const std::byte> coded, int size, int fractionBits);
+
+// Returns log2 of the largest power of two that all steps are multiples of, at most fractionBits: the shift of a block
+// with these samples.
+int sharedShift(const StepsView& steps, int fractionBits);
 
 }  // namespace planet

@@ -50,7 +50,7 @@ struct EdgeLine {
 
 EdgeLine edgeLine(const DrawnGround& ground, const DrawItem& item, Edge edge) {
     const int cells = chunkCells(ground.shape);
-    const std::span<const std::int16_t> heights = ground.heights(item);
+    const StepsView heights = ground.heights(item);
     EdgeLine line;
     for (int i = 0; i <= cells; ++i) {
         const int column = edge == Edge::West ? 0 : edge == Edge::East ? cells : i;
@@ -147,7 +147,7 @@ std::vector<float> mostApartOfEachM(const ChunkTree& tree, ErrorMetric metric,
 }  // namespace
 
 HeightsOf heightsIn(const ChunkTree& tree) {
-    return [&tree](const DrawItem& item) { return std::span(*tree.nodes[item.node].heights); };
+    return [&tree](const DrawItem& item) { return tree.nodes[item.node].heights->view(); };
 }
 
 std::vector<DrawnPair> drawnPairs(std::span<const DrawItem> items) {

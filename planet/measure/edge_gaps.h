@@ -20,13 +20,14 @@
 
 #include "planet/select/lod_types.h"
 #include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 #include "planet/sphere/view.h"
 #include "planet/tree/chunk_tree.h"
 
 namespace planet {
 
 // Returns the heights of a drawn chunk, (cells + 1)^2 steps.
-using HeightsOf = std::function<std::span<const std::int16_t>(const DrawItem&)>;
+using HeightsOf = std::function<StepsView(const DrawItem&)>;
 HeightsOf heightsIn(const ChunkTree& tree);  // the tree must outlive it
 
 // The drawn ground, for meters without a renderer.

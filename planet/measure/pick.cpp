@@ -108,7 +108,7 @@ struct PickTile {
     int column;
     int row;
 
-    std::int16_t step(int i, int j) const {
+    std::int32_t step(int i, int j) const {
         return (*node.heights)[static_cast<std::size_t>(j * chunkSize(shape) + i)];
     }
     glm::dvec3 direction(int i, int j) const {
@@ -121,8 +121,8 @@ struct PickTile {
 // Returns whether the ray may meet one of the tile's triangles. Every direction in a square of side s lies
 // within 3 s^2 / 8 of the bilinear hull of its corners' directions (bounds.cpp).
 bool mayBeHit(const PickTile& tile, const Ray& ray) {
-    std::int16_t lowest = std::numeric_limits<std::int16_t>::max();
-    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
+    std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
+    std::int32_t highest = std::numeric_limits<std::int32_t>::min();
     for (int j = tile.row; j <= tile.row + pickCells; ++j) {
         for (int i = tile.column; i <= tile.column + pickCells; ++i) {
             lowest = std::min(lowest, tile.step(i, j));
@@ -133,7 +133,7 @@ bool mayBeHit(const PickTile& tile, const Ray& ray) {
     for (const int j : {tile.row, tile.row + pickCells}) {
         for (const int i : {tile.column, tile.column + pickCells}) {
             const glm::dvec3 direction = tile.direction(i, j);
-            for (const std::int16_t step : {lowest, highest}) {
+            for (const std::int32_t step : {lowest, highest}) {
                 extent.add(fromRay(ray, positionM(tile.shape, direction, heightM(tile.shape, step))));
             }
         }

@@ -14,7 +14,7 @@ struct ShaderVertices {
     const PlanetShape& shape;
     const VertexFrame& frame;
     const ChunkId& id;
-    std::span<const std::int16_t> heights;
+    StepsView heights;
 
     glm::vec3 own(glm::ivec2 vertex) const {
         const std::int32_t spacing = fineCellsPerVertex(shape, id.level);
@@ -49,8 +49,7 @@ FloatPosition measured(const glm::vec3& fromEyeM, const glm::dvec3& trueFromEyeM
 }  // namespace
 
 VertexPrecision vertexPrecision(const PlanetShape& shape, const VertexFrame& frame, const DrawItem& item,
-                                std::span<const std::int16_t> heights, bool stitched, const View& view,
-                                glm::ivec2 vertex) {
+                                StepsView heights, bool stitched, const View& view, glm::ivec2 vertex) {
     assert(heights.size() == static_cast<std::size_t>(chunkVertexCount(shape)));
     VertexPrecision precision;
     precision.chunk = item.id;
@@ -67,7 +66,7 @@ VertexPrecision vertexPrecision(const PlanetShape& shape, const VertexFrame& fra
 }
 
 VertexPrecision worstPrecision(const PlanetShape& shape, const VertexFrame& frame, const DrawItem& item,
-                               std::span<const std::int16_t> heights, bool stitched, const View& view) {
+                               StepsView heights, bool stitched, const View& view) {
     VertexPrecision worst;
     worst.shader.errorPx = -1;
     for (int row = 0; row < chunkSize(shape); ++row) {
@@ -80,8 +79,8 @@ VertexPrecision worstPrecision(const PlanetShape& shape, const VertexFrame& fram
     return worst;
 }
 
-glm::ivec2 nearestVertex(const PlanetShape& shape, const DrawItem& item,
-                         std::span<const std::int16_t> heights, bool stitched, const glm::dvec3& pointM) {
+glm::ivec2 nearestVertex(const PlanetShape& shape, const DrawItem& item, StepsView heights, bool stitched,
+                         const glm::dvec3& pointM) {
     glm::ivec2 nearest{0, 0};
     double shortestM = std::numeric_limits<double>::infinity();
     const DrawnGrid grid = drawnGrid(shape, item, heights, stitched);

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "planet/select/drawn_surface.h"
+#include "planet/sphere/steps.h"
 #include "planet/sphere/vertex_position.h"
 #include "planet/sphere/view.h"
 
@@ -36,15 +37,14 @@ struct VertexPrecision {
 
 // Measures one vertex. frame: vertexFrame(shape, view.eyeM), as in the shader.
 VertexPrecision vertexPrecision(const PlanetShape& shape, const VertexFrame& frame, const DrawItem& item,
-                                std::span<const std::int16_t> heights, bool stitched, const View& view,
-                                glm::ivec2 vertex);
+                                StepsView heights, bool stitched, const View& view, glm::ivec2 vertex);
 
 // Returns the chunk's vertex with the largest shader error in pixels.
 VertexPrecision worstPrecision(const PlanetShape& shape, const VertexFrame& frame, const DrawItem& item,
-                               std::span<const std::int16_t> heights, bool stitched, const View& view);
+                               StepsView heights, bool stitched, const View& view);
 
 // Returns the chunk's drawn vertex nearest to a point.
-glm::ivec2 nearestVertex(const PlanetShape& shape, const DrawItem& item,
-                         std::span<const std::int16_t> heights, bool stitched, const glm::dvec3& pointM);
+glm::ivec2 nearestVertex(const PlanetShape& shape, const DrawItem& item, StepsView heights, bool stitched,
+                         const glm::dvec3& pointM);
 
 }  // namespace planet

@@ -188,7 +188,7 @@ LeafColumns columnsOf(const ChunkId& leaf, int cells) {
     return columns;
 }
 
-void fillTruth(const PlanetShape& shape, const LeafColumns& columns, double v, const std::int16_t* steps,
+void fillTruth(const PlanetShape& shape, const LeafColumns& columns, double v, const StepsView& steps,
                const glm::dvec3& eye, Row& row) {
     const double vSquared = v * v;
     const double vRoot = std::sqrt(0.5 - vSquared / 6);
@@ -317,7 +317,8 @@ void measureLeaf(const DrawnSnapshot& snapshot, const Surface& surface, const Ca
     const FaceSquare square = faceSquareOf(leaf.id);
     const LeafColumns columns = columnsOf(leaf.id, cells);
     for (int j = 0; j < rows; ++j) {
-        const std::int16_t* steps = leaf.heights->data() + static_cast<std::ptrdiff_t>(j) * (cells + 1);
+        const auto side = static_cast<std::size_t>(cells) + 1;
+        const StepsView steps = leaf.heights->view().subspan(static_cast<std::size_t>(j) * side, side);
         surface.fill(x, y + j, perCell, row);
         fillTruth(shape, columns, square.v + square.side * j / cells, steps, surface.eye(), row);
         compare(row);

@@ -10,7 +10,7 @@ namespace {
 
 std::size_t bytesOf(const HeldBlock& block) {
     std::size_t bytes = sizeof(HeldBlock);
-    for (const HeldChunk& chunk : block) bytes += chunk.heights->size() * sizeof(std::int16_t);
+    for (const HeldChunk& chunk : block) bytes += chunk.heights->bytes();
     return bytes;
 }
 
@@ -18,8 +18,7 @@ std::shared_ptr<const HeldBlock> heldBlock(SiblingBlock&& children) {
     auto block = std::make_shared<HeldBlock>();
     for (std::size_t q = 0; q < block->size(); ++q) {
         ChunkData& child = children[q];
-        (*block)[q] = {child.id, std::make_shared<const std::vector<std::int16_t>>(std::move(child.heights)),
-                       child.children};
+        (*block)[q] = {child.id, std::make_shared<const Steps>(std::move(child.heights)), child.children};
     }
     return block;
 }
@@ -49,8 +48,7 @@ FinestHeights::FinestHeights(LoadChildren load, std::size_t cacheBytes)
 
 FinestHeights::FinestHeights(std::shared_ptr<const ChunkFile> file, std::size_t cacheBytes)
     : FinestHeights(
-          [file = std::move(file)](const ChunkId& parent, BlockLocation location,
-                                   std::span<const std::int16_t> parentHeights) {
+          [file = std::move(file)](const ChunkId& parent, BlockLocation location, StepsView parentHeights) {
               return file->readChildren(parent, location, parentHeights);
           },
           cacheBytes) {}

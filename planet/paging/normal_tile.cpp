@@ -130,7 +130,10 @@ private:
         }
         GridChunk made;
         if (held->id == id) {
-            made = {{held->heights->begin(), held->heights->end()}, held->children.exists()};
+            made.steps.resize(held->heights->size());
+            for (std::size_t i = 0; i < made.steps.size(); ++i)
+                made.steps[i] = static_cast<float>((*held->heights)[i]);
+            made.isRefined = held->children.exists();
         } else {
             made.steps = stepsUnder(*held, id, chunkCells(shape_));
         }
@@ -319,7 +322,7 @@ NormalDeriver::NormalDeriver(const PlanetShape& shape, const std::array<HeldChun
       roots_(roots),
       heights_(
           [this, load = std::move(load)](const ChunkId& parent, BlockLocation location,
-                                         std::span<const std::int16_t> parentHeights) {
+                                         StepsView parentHeights) {
               bytesRead_ += location.size;
               return load(parent, location, parentHeights);
           },

@@ -26,6 +26,7 @@
 #include "planet/format/chunk_file.h"
 #include "planet/paging/disk_simulator.h"
 #include "planet/paging/paging_queue.h"
+#include "planet/sphere/steps.h"
 
 namespace planet {
 
@@ -37,7 +38,7 @@ using LoadedBlock = std::variant<SiblingBlock, TileBlock>;
 // Reads the four children of a chunk, as ChunkFile::readChildren does. Called from several loader threads at
 // once.
 using LoadChildren = std::function<Result<SiblingBlock>(const ChunkId& parent, BlockLocation location,
-                                                        std::span<const std::int16_t> parentHeights)>;
+                                                        StepsView parentHeights)>;
 // Reads the four children of a tile of colours, as ChunkFile::readColourChildren does.
 using LoadColours = std::function<Result<TileBlock>(const ChunkId& parent, BlockLocation location)>;
 

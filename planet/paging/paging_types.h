@@ -16,6 +16,7 @@
 #include "planet/paging/paging_queue.h"
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
+#include "planet/sphere/steps.h"
 
 namespace planet {
 
@@ -132,10 +133,10 @@ private:
 
 // Makes the heights of one chunk drawable: chunkVertexCount steps into a slot below the capacity of heights.
 // Called on the thread that steps the planet.
-using UploadChunk = std::function<void(std::uint32_t slot, std::span<const std::int16_t> heights)>;
+using UploadChunk = std::function<void(std::uint32_t slot, StepsView heights)>;
 
 // No-op upload, for headless use.
-inline void noUpload(std::uint32_t, std::span<const std::int16_t>) {}
+inline void noUpload(std::uint32_t, StepsView) {}
 
 // An update for a pool of tiles after a step. Updates are applied in order.
 struct TileChange {

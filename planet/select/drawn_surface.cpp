@@ -81,8 +81,7 @@ VertexBlend blendOf(const DrawItem& item, glm::ivec2 vertex, int last, bool stit
     return blend;
 }
 
-glm::dvec3 ownPositionM(const PlanetShape& shape, const ChunkId& id, std::span<const std::int16_t> heights,
-                        glm::ivec2 vertex) {
+glm::dvec3 ownPositionM(const PlanetShape& shape, const ChunkId& id, StepsView heights, glm::ivec2 vertex) {
     const int cells = chunkCells(shape);
     const FaceSquare square = faceSquareOf(id);
     const double u = square.u + square.side * vertex.x / cells;
@@ -164,8 +163,8 @@ VertexBlend vertexBlend(const PlanetShape& shape, const DrawItem& item, bool sti
     return blendOf(item, {column, row}, chunkCells(shape), stitched);
 }
 
-DrawnVertex drawnVertex(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
-                        bool stitched, int column, int row) {
+DrawnVertex drawnVertex(const PlanetShape& shape, const DrawItem& item, StepsView heights, bool stitched,
+                        int column, int row) {
     return blended({column, row}, blendOf(item, {column, row}, chunkCells(shape), stitched),
                    [&](glm::ivec2 vertex) { return ownPositionM(shape, item.id, heights, vertex); });
 }
@@ -175,8 +174,7 @@ bool gathersVertices(const DrawItem& item, Edge edge) {
     return item.coarserBy[index] > 0 || gatheredAt(item.edgeMorph[index]) > 0;
 }
 
-DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
-                    bool stitched) {
+DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, StepsView heights, bool stitched) {
     const int cells = chunkCells(shape);
     const auto size = static_cast<std::size_t>(cells + 1);
     assert(heights.size() == size * size);

@@ -14,6 +14,7 @@
 
 #include "planet/select/lod_types.h"
 #include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 
 namespace planet {
 
@@ -28,8 +29,7 @@ struct DrawnGrid {
 };
 
 // Computes the drawn vertices. heights: the chunk's (cells + 1)^2 steps. stitched: RenderSettings::stitched.
-DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
-                    bool stitched);
+DrawnGrid drawnGrid(const PlanetShape& shape, const DrawItem& item, StepsView heights, bool stitched);
 
 // The two triangles of a cell, its diagonal from south-west to north-east.
 struct CellTriangle {
@@ -67,8 +67,8 @@ struct DrawnVertex {
     glm::dvec2 place{0, 0};
     glm::dvec3 positionM{0, 0, 0};
 };
-DrawnVertex drawnVertex(const PlanetShape& shape, const DrawItem& item, std::span<const std::int16_t> heights,
-                        bool stitched, int column, int row);
+DrawnVertex drawnVertex(const PlanetShape& shape, const DrawItem& item, StepsView heights, bool stitched,
+                        int column, int row);
 
 // The number of outer rows of cells that stitching changes. It moves the vertices on and near a stitched edge
 // along the edge, so the triangle at a place there may belong to a cell further along.

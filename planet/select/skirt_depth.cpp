@@ -38,7 +38,7 @@ NodeIndex ancestorAt(const ChunkTree& tree, NodeIndex finer, int level) {
 }
 
 float leastSkirtDepthM(const ChunkTree& tree, const DrawItem& item) {
-    return std::max(static_cast<float>(2 * tree.shape.quantumM), 1e-6f * item.distanceM);
+    return std::max(static_cast<float>(2 * fileQuantumM(tree.shape)), 1e-6f * item.distanceM);
 }
 
 float automaticSkirtDepthM(const ChunkTree& tree, const DrawItem& item, float apartM, double factor) {

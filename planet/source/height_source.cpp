@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "planet/raster/gdal_formats.h"
 #include "planet/raster/gdal_raster.h"
 #include "planet/raster/image_placement.h"
+#include "planet/source/height_quanta.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/source_parts.h"
 #include "planet/source/terrain.h"
@@ -155,6 +157,12 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
     Result<HeightSource> source = openAnySource(path, settings);
     // Rasters, worlds and detail have parts of their own; anything else is one.
     if (source && !source->parts) source->parts = wholeSource(path, settings, source->densities);
+    if (source && !source->finestQuantumM && source->sampleCount > 0) {
+        const double spacingRad = std::numbers::pi / 2 / (source->naturalFaceSize - 1);
+        source->finestQuantumM = [stepM = source->stepM, spacingRad](double radiusM) {
+            return neededQuantumM(stepM, spacingRad * radiusM);
+        };
+    }
     return source;
 }
 

@@ -251,6 +251,15 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
             return cells < finest ? cells : refined;
         };
     }
+    // Detail needs no finer quantum than what it refines.
+    result.finestQuantumM = source.finestQuantumM;
+    if (source.sampleWithQuanta) {
+        result.sampleWithQuanta = [shared](const SampleTile& tile, double radiusM, std::span<float> out,
+                                           std::span<float> neededM) -> Result<void> {
+            TRY(shared->source.sampleWithQuanta(tile, radiusM, out, neededM));
+            return sampleTile(*shared, tile, out);
+        };
+    }
     const std::shared_ptr<const SourceLayers> below = source.layers;
     shared->source = std::move(source);
     result.sample = [shared = std::shared_ptr<const Detail>(shared)](const SampleTile& tile,

@@ -22,6 +22,7 @@ namespace {
 
 constexpr int fractionBits = 30;        // the first offsets lie within +-2^30
 constexpr int measuredLevel = 6;        // level of the grid whose extremes are measured
+constexpr int numberedLevel = 22;       // points of levels down to this are numbered on its grid
 constexpr int midpointPieceSide = 129;  // samples per side, 133 kB
 
 struct Midpoint {
@@ -122,8 +123,8 @@ std::int64_t offsetAt(const Midpoint& terrain, Face face, int column, int row, i
     const glm::dvec3 point = cubePoint(face, 2 * column - cells, 2 * row - cells);
     const FaceAxes& axes = faceAxes(face);
     // cubePoint's normal component is 1.
-    const glm::dvec3 whole =
-        (point + double(cells - 1) * axes.normal) * double(1 << (maxFaceCellsLog2 - level));
+    const int numbered = level <= numberedLevel ? numberedLevel : maxFaceCellsLog2;
+    const glm::dvec3 whole = (point + double(cells - 1) * axes.normal) * std::ldexp(1.0, numbered - level);
     const auto bits = [](double coordinate) {
         return static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinate));
     };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -15,6 +16,7 @@
 
 #include "planet/base/try.h"
 #include "planet/raster/gdal_raster.h"
+#include "planet/source/height_quanta.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/layer_readings.h"
 #include "planet/source/raster_parts.h"
@@ -37,13 +39,26 @@ struct Rasters {
     float fillM = 0;
 };
 
-Result<void> samplePiece(const Rasters& rasters, const SampleTile& piece, float* out, std::size_t stride) {
+// needed: where the quanta that the heights need are wanted, for the same places as out; else null.
+Result<void> samplePiece(const Rasters& rasters, const SampleTile& piece, double radiusM, float* out,
+                         float* needed, std::size_t stride) {
     std::vector<float> heights(samplesIn(piece), std::numeric_limits<float>::quiet_NaN());
+    std::vector<float> quanta(needed ? heights.size() : 0, static_cast<float>(noQuantumM));
     const PiecePlaces places = placesOf(piece);
-    for (const RasterArea& area : rasters.areas)
-        TRY(fillFrom(area, places, placesOnGrid(area, places), heights));
+    for (const RasterArea& area : rasters.areas) {
+        const PlacesOnGrid onGrid = placesOnGrid(area, places);
+        const auto quantum = static_cast<float>(quantumOf(area, radiusM));
+        const auto isNew = [&](std::size_t i) { return std::isnan(heights[i]); };
+        std::vector<std::size_t> open;
+        if (needed) std::ranges::copy_if(onGrid.index, std::back_inserter(open), isNew);
+        TRY(fillFrom(area, places, onGrid, heights));
+        for (const std::size_t i : open) {
+            if (!isNew(i)) quanta[i] = quantum;
+        }
+    }
     const auto columns = static_cast<std::size_t>(piece.columns);
     for (std::size_t i = 0; i < heights.size(); ++i) {
+        if (needed) needed[i / columns * stride + i % columns] = quanta[i];
         out[i / columns * stride + i % columns] =
             std::isnan(heights[i]) ? rasters.fillM : std::clamp(heights[i], rasters.minM, rasters.maxM);
     }
@@ -246,7 +261,20 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
     source.sample = [shared](const SampleTile& tile, std::span<float> out) {
         return sampleInPieces(tile, rasterPieceSide, out,
                               [&](const SampleTile& piece, float* to, std::size_t stride) {
-                                  return samplePiece(*shared, piece, to, stride);
+                                  return samplePiece(*shared, piece, 0, to, nullptr, stride);
+                              });
+    };
+    source.finestQuantumM = [shared](double radiusM) {
+        double finestM = noQuantumM;
+        for (const RasterArea& area : shared->areas) finestM = std::min(finestM, quantumOf(area, radiusM));
+        return finestM;
+    };
+    source.sampleWithQuanta = [shared](const SampleTile& tile, double radiusM, std::span<float> out,
+                                       std::span<float> neededM) {
+        return sampleInPieces(tile, rasterPieceSide, out,
+                              [&](const SampleTile& piece, float* to, std::size_t stride) {
+                                  float* const needed = neededM.data() + (to - out.data());
+                                  return samplePiece(*shared, piece, radiusM, to, needed, stride);
                               });
     };
     return source;

@@ -77,9 +77,18 @@ struct HeightSource {
     std::function<Result<std::vector<SourcePart>>()> parts{};
 
     // Returns the smallest power of two of cells along a face that loses no data under this square of its
-    // face, [1, 2^22]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several
+    // face, [1, 2^maxFaceCellsLog2]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several
     // threads may call it at once.
     std::function<int(const ChunkId& square)> finestCells{};
+
+    // Returns the finest quantum, metres, that any of the heights needs on a planet of a radius (height_quanta.h). Null:
+    // none needs one, as of procedural terrain.
+    std::function<double(double radiusM)> finestQuantumM{};
+    // Samples like sample, and says which quantum each height needs, metres; infinity: none. Like the height, it depends
+    // only on the point of the cube and the filter's grid. Null: all need finestQuantumM.
+    std::function<Result<void>(const SampleTile& tile, double radiusM, std::span<float> out,
+                               std::span<float> neededM)>
+        sampleWithQuanta{};
 
     // Fills out, row-major, with columns x rows heights in metres. A sample's value depends only on its point
     // of the cube and on filterCellsOf(tile), never on the tile, the face or faceCells, so shared edges are

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/source/height_quanta.h"
 #include "planet/source/height_source.h"
 #include "planet/source/source_parts.h"
 
@@ -40,6 +41,10 @@ Result<SourcePart> partOf(const RasterArea& area, std::uint64_t settings) {
     const double sampleRad = area.samplesPerRad > 0 ? 1 / area.samplesPerRad : 0;
     const double radiusRad = std::min(area.radiusRad + 4 * sampleRad + 1e-9, std::numbers::pi);
     return SourcePart{fingerprint.hash(), area.centre, radiusRad, densitiesOf(area)};
+}
+
+double quantumOf(const RasterArea& area, double radiusM) {
+    return neededQuantumM(area.stepM, area.samplesPerRad > 0 ? radiusM / area.samplesPerRad : noQuantumM);
 }
 
 }  // namespace planet

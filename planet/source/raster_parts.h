@@ -13,4 +13,7 @@ namespace planet {
 // depend on.
 Result<SourcePart> partOf(const RasterArea& area, std::uint64_t settings);
 
+// Returns the quantum that heights of an area need, metres, on a planet of a radius (height_quanta.h).
+double quantumOf(const RasterArea& area, double radiusM);
+
 }  // namespace planet

@@ -15,6 +15,7 @@
 
 #include "planet/base/try.h"
 #include "planet/raster/rim_distance.h"
+#include "planet/source/height_quanta.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/layer_readings.h"
@@ -101,49 +102,83 @@ Result<void> checkShift(const WorldLayer& layer, double shiftM, const Geographic
         layer.name, place.latitudeRad * degPerRad, place.longitudeRad * degPerRad));
 }
 
+// The heights of the places of a piece, and the quanta that they need, metres; none if they are not wanted.
+struct PieceHeights {
+    std::vector<float> heightsM;
+    std::vector<float> neededM;
+    double radiusM = 0;  // of the planet; only for quanta
+};
+
+// Says which quantum the height of a place needs after a layer has joined it with a weight.
+void joinQuantum(const WorldLayer& layer, float quantumM, double weight, float& neededM) {
+    if (weight <= 0) return;
+    const bool hidesBelow = layer.join == LayerJoin::Replace && weight >= 1;
+    neededM = hidesBelow ? quantumM : std::min(neededM, quantumM);
+}
+
 // Joins the heights of a layer, of which those that are NaN leave what lies under them. weight(i) is the share of the
-// height at place i.
-template <class Weight>
+// height at place i, and quantum(i) the quantum that it needs.
+template <class Weight, class Quantum>
 Result<void> joinHeights(const WorldPart& part, const PiecePlaces& places, std::span<const float> heights,
-                         std::span<float> worldM, const Weight& weight) {
+                         PieceHeights& world, const Weight& weight, const Quantum& quantum) {
     const std::vector<double> shifts = shiftsAt(part, places);
     for (std::size_t i = 0; i < heights.size(); ++i) {
         if (std::isnan(heights[i])) continue;
         const double shiftM = shifts.empty() ? 0 : shifts[i];
         TRY(checkShift(part.layer, shiftM, {places.latitudeRad[i], places.longitudeRad[i]}));
-        worldM[i] = joined(part.layer, worldM[i], heights[i], shiftM, weight(i));
+        world.heightsM[i] = joined(part.layer, world.heightsM[i], heights[i], shiftM, weight(i));
+        if (!world.neededM.empty()) joinQuantum(part.layer, quantum(i), weight(i), world.neededM[i]);
     }
     return {};
 }
 
+double quantumOf(const WorldPart& part, const RasterPart& rasters, double radiusM) {
+    const double quantumM = quantumOf(rasters.area, radiusM);
+    return rasters.area.stepM > 0 ? std::abs(part.layer.scale) * quantumM : quantumM;
+}
+
 Result<void> joinRasters(const WorldPart& part, const RasterPart& rasters, const PiecePlaces& places,
-                         std::span<float> worldM) {
+                         PieceHeights& world) {
     const PlacesOnGrid onGrid = placesOnGrid(rasters.area, places);
     if (onGrid.index.empty()) return {};
-    std::vector<float> heights(worldM.size(), std::numeric_limits<float>::quiet_NaN());
+    std::vector<float> heights(world.heightsM.size(), std::numeric_limits<float>::quiet_NaN());
     TRY(fillFrom(rasters.area, places, onGrid, heights));
     TRY(treatVoids(part.layer, rasters.area, onGrid, heights));
-    std::vector<double> weights(rasters.rim ? worldM.size() : 0);
+    std::vector<double> weights(rasters.rim ? heights.size() : 0);
     if (rasters.rim) {
         std::vector<double> distances(onGrid.index.size());
         TRY(rasters.rim->at(onGrid.column, onGrid.row, distances));
         for (std::size_t k = 0; k < onGrid.index.size(); ++k)
             weights[onGrid.index[k]] = smoothly(0, rasters.rim->reachRad(), distances[k]);
     }
-    return joinHeights(part, places, heights, worldM,
-                       [&](std::size_t i) { return weights.empty() ? 1 : weights[i]; });
+    const auto quantum = static_cast<float>(quantumOf(part, rasters, world.radiusM));
+    return joinHeights(
+        part, places, heights, world, [&](std::size_t i) { return weights.empty() ? 1 : weights[i]; },
+        [&](std::size_t) { return quantum; });
 }
 
 Result<void> joinSource(const WorldPart& part, const HeightSource& source, const SampleTile& piece,
-                        const PiecePlaces& places, std::span<float> worldM) {
-    std::vector<float> heights(worldM.size());
-    TRY(source.sample(piece, heights));
-    return joinHeights(part, places, heights, worldM, [](std::size_t) { return 1.0; });
+                        const PiecePlaces& places, PieceHeights& world) {
+    std::vector<float> heights(world.heightsM.size());
+    std::vector<float> needed(world.neededM.size());
+    if (needed.empty()) {
+        TRY(source.sample(piece, heights));
+    } else {
+        TRY(sampleWithQuanta(source, piece, world.radiusM, heights, needed));
+    }
+    const auto scale = static_cast<float>(std::abs(part.layer.scale));
+    return joinHeights(
+        part, places, heights, world, [](std::size_t) { return 1.0; },
+        [&](std::size_t i) { return scale * needed[i]; });
 }
 
-Result<void> samplePiece(const World& world, const SampleTile& piece, float* out, std::size_t stride) {
+// needed: where the quanta that the heights need are wanted, for the same places as out; else null.
+Result<void> samplePiece(const World& world, const SampleTile& piece, double radiusM, float* out,
+                         float* needed, std::size_t stride) {
     const PiecePlaces places = placesOf(piece);
-    std::vector<float> heights(samplesIn(piece), static_cast<float>(world.fillM));
+    const std::size_t count = samplesIn(piece);
+    PieceHeights heights{std::vector<float>(count, static_cast<float>(world.fillM)),
+                         std::vector<float>(needed ? count : 0, static_cast<float>(noQuantumM)), radiusM};
     for (const WorldPart& part : world.parts) {
         if (const auto* const source = std::get_if<HeightSource>(&part.content)) {
             TRY(joinSource(part, *source, piece, places, heights));
@@ -152,9 +187,11 @@ Result<void> samplePiece(const World& world, const SampleTile& piece, float* out
         }
     }
     const auto columns = static_cast<std::size_t>(piece.columns);
-    for (std::size_t i = 0; i < heights.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i) {
         out[i / columns * stride + i % columns] =
-            std::clamp(heights[i], static_cast<float>(world.minM), static_cast<float>(world.maxM));
+            std::clamp(heights.heightsM[i], static_cast<float>(world.minM), static_cast<float>(world.maxM));
+        if (needed) needed[i / columns * stride + i % columns] = heights.neededM[i];
+    }
     return {};
 }
 
@@ -236,6 +273,17 @@ int finestCellsIn(const World& world, const ChunkId& square) {
         }
     }
     return cells;
+}
+
+double finestQuantumOf(const World& world, double radiusM) {
+    double finestM = noQuantumM;
+    for (const WorldPart& part : world.parts) {
+        const auto* const source = std::get_if<HeightSource>(&part.content);
+        finestM = std::min(
+            finestM, source ? std::abs(part.layer.scale) * finestQuantumOf(*source, radiusM)
+                            : quantumOf(part, *std::get<std::unique_ptr<RasterPart>>(part.content), radiusM));
+    }
+    return finestM;
 }
 
 SourceReads readsOf(const World& world) {
@@ -356,10 +404,19 @@ public:
         source.sample = [world](const SampleTile& tile, std::span<float> out) {
             return sampleInPieces(tile, worldPieceSide, out,
                                   [&](const SampleTile& piece, float* to, std::size_t stride) {
-                                      return samplePiece(*world, piece, to, stride);
+                                      return samplePiece(*world, piece, 0, to, nullptr, stride);
                                   });
         };
         if (settings_.colourChannel) return source;
+        source.finestQuantumM = [world](double radiusM) { return finestQuantumOf(*world, radiusM); };
+        source.sampleWithQuanta = [world](const SampleTile& tile, double radiusM, std::span<float> out,
+                                          std::span<float> neededM) {
+            return sampleInPieces(tile, worldPieceSide, out,
+                                  [&](const SampleTile& piece, float* to, std::size_t stride) {
+                                      float* const needed = neededM.data() + (to - out.data());
+                                      return samplePiece(*world, piece, radiusM, to, needed, stride);
+                                  });
+        };
         source.layers = std::make_shared<const SourceLayers>(SourceLayers{
             layers_, fillM_, [world](const Geographic& place) { return readingsOf(*world, place); }});
         return source;

@@ -14,7 +14,7 @@
 
 namespace planet {
 
-inline constexpr int maxLevel = 20;  // on Earth, root chunks of 17 vertices per side then have cells of 0.6 m
+inline constexpr int maxLevel = 24;  // on Earth, chunks of 17 vertices per side then have cells of 3.7 cm
 
 struct ChunkId {
     Face face = Face::PosX;

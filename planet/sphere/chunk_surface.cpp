@@ -5,7 +5,7 @@
 
 namespace planet {
 
-double stepOnTriangles(std::span<const std::int16_t> heights, int cells, double x, double y) {
+double stepOnTriangles(StepsView heights, int cells, double x, double y) {
     const auto side = static_cast<std::size_t>(cells) + 1;
     const double column = std::clamp(std::floor(x), 0.0, cells - 1.0);
     const double row = std::clamp(std::floor(y), 0.0, cells - 1.0);
@@ -20,16 +20,13 @@ double stepOnTriangles(std::span<const std::int16_t> heights, int cells, double 
     return sw + t * (nw - sw) + s * (ne - nw);
 }
 
-void placeQuarter(std::span<const std::int16_t> quarter, int cells, int quadrant,
-                  std::span<std::int16_t> refined) {
+void placeQuarter(StepsView quarter, int cells, int quadrant, std::span<std::int32_t> refined) {
     const auto side = static_cast<std::size_t>(cells) + 1;
     const std::size_t refinedSide = 2 * side - 1;
     const std::size_t column = (quadrant & 1) != 0 ? side - 1 : 0;
     const std::size_t row = (quadrant & 2) != 0 ? side - 1 : 0;
     for (std::size_t j = 0; j < side; ++j) {
-        const auto from = quarter.subspan(j * side, side);
-        std::copy(from.begin(), from.end(),
-                  refined.begin() + static_cast<std::ptrdiff_t>((row + j) * refinedSide + column));
+        quarter.subspan(j * side, side).copyTo(refined.subspan((row + j) * refinedSide + column, side));
     }
 }
 

@@ -27,13 +27,14 @@ double largestSquaredGap(const GeometricErrorScratch& scratch, std::size_t row, 
 
 }  // namespace
 
-void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size_t side,
-                   std::span<const std::int16_t> heights, GeometricErrorScratch& scratch) {
+void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size_t side, StepsView heights,
+                   GeometricErrorScratch& scratch) {
     assert(heights.size() == side * side);
     const double step = square.side / static_cast<double>(side - 1);
     for (std::vector<double>* grid : {&scratch.x, &scratch.y, &scratch.z}) grid->resize(side * side);
     scratch.u.resize(side);
     scratch.uRoot.resize(side);
+    scratch.row.resize(side);
     for (std::size_t i = 0; i < side; ++i) {
         const double u = square.u + step * static_cast<double>(i);
         scratch.u[i] = u;
@@ -44,7 +45,8 @@ void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size
         const double v = square.v + step * static_cast<double>(j);
         const double vSquared = v * v;
         const double vRoot = std::sqrt(0.5 - vSquared / 6);
-        const std::int16_t* const steps = heights.data() + j * side;
+        heights.subspan(j * side, side).copyTo(scratch.row);
+        const std::int32_t* const steps = scratch.row.data();
         double* const x = scratch.x.data() + j * side;
         double* const y = scratch.y.data() + j * side;
         double* const z = scratch.z.data() + j * side;
@@ -58,7 +60,7 @@ void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size
     }
 }
 
-double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, std::span<const std::int16_t> refined,
+double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, StepsView refined,
                        GeometricErrorScratch& scratch) {
     const auto side = static_cast<std::size_t>(2 * chunkCells(shape) + 1);
     assert(refined.size() == side * side);

@@ -16,27 +16,28 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 
 namespace planet {
 
 // Memory reused between calls; one per thread.
 struct GeometricErrorScratch {
-    std::vector<double> x, y, z;   // positions in the face's axes, metres
-    std::vector<double> u, uRoot;  // a column's coordinate and sqrt(1/2 - u^2/6)
+    std::vector<double> x, y, z;    // positions in the face's axes, metres
+    std::vector<double> u, uRoot;   // a column's coordinate and sqrt(1/2 - u^2/6)
+    std::vector<std::int32_t> row;  // the steps of a row
 };
 
 // Fills x, y and z with the vertices of a grid over a square of a face. heights: side^2 steps, row-major.
-void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size_t side,
-                   std::span<const std::int16_t> heights, GeometricErrorScratch& scratch);
+void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size_t side, StepsView heights,
+                   GeometricErrorScratch& scratch);
 
 // Returns the δg of a chunk, metres. refined: its grid including its children's samples, (2 c + 1)^2 steps,
 // row-major, c = chunkCells.
-double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, std::span<const std::int16_t> refined,
+double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, StepsView refined,
                        GeometricErrorScratch& scratch);
 
 // Returns the smallest float that is not below the value, for stored errors.

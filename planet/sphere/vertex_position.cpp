@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace planet {
 
@@ -13,14 +12,18 @@ namespace {
 constexpr double fineCells = 1 << fineGridLog2;
 constexpr float fineCell = static_cast<float>(2 / fineCells);  // a power of two
 
+// Returns the nearest line of the reference points' grid.
 std::int32_t nearestGridLine(double coordinate) {
-    return static_cast<std::int32_t>(std::lround((std::clamp(coordinate, -1.0, 1.0) + 1) / 2 * fineCells));
+    constexpr double referenceCells = 1 << referenceGridLog2;
+    const auto line =
+        static_cast<std::int32_t>(std::lround((std::clamp(coordinate, -1.0, 1.0) + 1) / 2 * referenceCells));
+    return line << (fineGridLog2 - referenceGridLog2);
 }
 
 std::int32_t nearestStep(const PlanetShape& shape, double heightAboveRadiusM) {
-    using Step = std::numeric_limits<std::int16_t>;
     const double step = std::round((heightAboveRadiusM - shape.baseHeightM) / shape.quantumM);
-    return static_cast<std::int32_t>(std::clamp<double>(step, Step::min(), Step::max()));
+    return static_cast<std::int32_t>(
+        std::clamp<double>(step, lowestStepOf(shape.fractionBits), highestStepOf(shape.fractionBits)));
 }
 
 FaceReference faceReference(Face face, const glm::dvec3& eyeOnCube, double radiusM, const glm::dvec3& eyeM) {
@@ -76,7 +79,7 @@ FineGridPoint onOwningFace(const FineGridPoint& point) {
 }
 
 glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face anyFace, std::int32_t anyGridU, std::int32_t anyGridV,
-                         std::int16_t step, float skirtDropM) {
+                         std::int32_t step, float skirtDropM) {
     const auto [face, gridU, gridV] = onOwningFace({anyFace, anyGridU, anyGridV});
     const FaceReference& reference = frame.faces[static_cast<std::size_t>(face)];
     const float u0 = reference.u0;

@@ -1,9 +1,10 @@
 // The position of a vertex relative to the eye, in floats: mirrors the computation of the vertex shader.
 //
 // A float has seven digits and a planet needs ten, so nothing here is relative to the planet's centre. Each
-// face has a reference point near the eye, computed in doubles once per frame: a grid point (u0, v0) and a
-// height step h0. A vertex's grid distance to it is a small integer, exact in a float, and the difference of
-// the two directions d(u, v) - d(u0, v0) of Nowell's mapping is computed without cancellation. So
+// face has a reference point near the eye, computed in doubles once per frame: a grid point (u0, v0), whose
+// coordinates a float holds exactly, and a height step h0. A vertex's grid distance to it is taken in integers. A float
+// holds it exactly near the eye, and elsewhere within 6e-8 of itself. The difference of the two directions
+// d(u, v) - d(u0, v0) of Nowell's mapping is computed without cancellation. So
 //
 //   position - eye = (P0 - eye) + (R + h) (d - d0) + (h - h0) d0,     P0 = (R + h0) d0
 //
@@ -22,9 +23,11 @@
 
 namespace planet {
 
-// Grid coordinates here count cells of the finest possible grid, 2^22 per side, whatever the planet's own
-// grid: [0, 2^22] from the west or south edge of the face.
+// Grid coordinates here count cells of the finest possible grid, 2^28 per side, whatever the planet's own
+// grid: [0, 2^28] from the west or south edge of the face.
 inline constexpr int fineGridLog2 = maxFaceCellsLog2;
+// The reference point lies on a grid of 2^22 cells per side, whose coordinates are exact in a float.
+inline constexpr int referenceGridLog2 = 22;
 
 struct FaceReference {
     std::int32_t gridU = 0;  // of the reference point
@@ -59,7 +62,7 @@ FineGridPoint onOwningFace(const FineGridPoint& point);
 
 // Returns the position in metres from the eye, in world axes. The skirt drops towards the planet's centre.
 glm::vec3 vertexFromEyeM(const VertexFrame& frame, Face face, std::int32_t gridU, std::int32_t gridV,
-                         std::int16_t step, float skirtDropM = 0);
+                         std::int32_t step, float skirtDropM = 0);
 
 // Returns the cells of the finest grid between two neighbouring vertices of a chunk.
 constexpr std::int32_t fineCellsPerVertex(const PlanetShape& shape, int level) {

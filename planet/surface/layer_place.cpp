@@ -17,7 +17,7 @@ namespace {
 struct Grid {
     const PlanetShape& shape;
     ChunkId id;
-    std::span<const std::int16_t> heights;
+    StepsView heights;
     int cells = 0;
     FaceSquare square{};
 
@@ -58,7 +58,7 @@ glm::dvec3 normalAt(const Grid& grid, int x, int y) {
 
 }  // namespace
 
-LayerPlace layerPlace(const PlanetShape& shape, const ChunkId& id, std::span<const std::int16_t> heights,
+LayerPlace layerPlace(const PlanetShape& shape, const ChunkId& id, StepsView heights,
                       const glm::dvec3& positionM, double seaLevelM, double exaggeration) {
     assert(exaggeration > 0 && heights.size() == static_cast<std::size_t>(chunkVertexCount(shape)));
     const Grid grid{shape, id, heights, chunkCells(shape), faceSquareOf(id)};

@@ -8,6 +8,7 @@
 
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 #include "planet/surface/layer_set.h"
 
 namespace planet {
@@ -16,7 +17,7 @@ namespace planet {
 // chunk's steps, without morph. Slopes are computed from the heights around each vertex, as in lighting, and
 // interpolated over the triangle; at a chunk's border, from inside the chunk only. exaggeration: included in
 // the shape, > 0; the returned height and slope are the true ones.
-LayerPlace layerPlace(const PlanetShape& shape, const ChunkId& id, std::span<const std::int16_t> heights,
+LayerPlace layerPlace(const PlanetShape& shape, const ChunkId& id, StepsView heights,
                       const glm::dvec3& positionM, double seaLevelM, double exaggeration);
 
 }  // namespace planet

@@ -17,8 +17,8 @@ namespace planet {
 namespace {
 
 struct Limits {
-    std::int16_t minStep;
-    std::int16_t maxStep;
+    std::int32_t minStep;
+    std::int32_t maxStep;
     float deltaCM;
     float deltaTightM;
 };
@@ -45,11 +45,11 @@ Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const C
         return badInput(fmt::format("chunk {}: extremes: steps {} to {} are out of range; expected [{}, {}]",
                                     name, data.minStep, data.maxStep, limits.minStep, limits.maxStep));
     }
-    const auto [lowest, highest] = std::minmax_element(data.heights.begin(), data.heights.end());
-    if (*lowest < data.minStep || *highest > data.maxStep) {
+    const auto [lowest, highest] = lowestAndHighest(data.heights);
+    if (lowest < data.minStep || highest > data.maxStep) {
         return badInput(
             fmt::format("chunk {}: heights: steps {} to {} are out of range; expected its extremes, [{}, {}]",
-                        name, *lowest, *highest, data.minStep, data.maxStep));
+                        name, lowest, highest, data.minStep, data.maxStep));
     }
     if (id.level >= deepestLevelOf(shape) && data.children.exists()) {
         return badInput(fmt::format("chunk {}: has children below the finest level; expected none", name));
@@ -109,7 +109,7 @@ ChunkNode makeNode(const ChunkTree& tree, ChunkData&& data, NodeIndex parent, st
     node.children = data.children;
     setMeasures(tree, node);
     node.slot = slot;
-    node.heights = std::make_shared<const std::vector<std::int16_t>>(std::move(data.heights));
+    node.heights = std::make_shared<const Steps>(std::move(data.heights));
     return node;
 }
 
@@ -165,7 +165,7 @@ NodeIndex finestNodeAt(const ChunkTree& tree, const FacePoint& point) {
 
 }  // namespace
 
-Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
+Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int32_t minStep, std::int32_t maxStep,
                                 std::array<ChunkData, faceCount>&& roots) {
     const double lowestM = shape.radiusM + heightM(shape, minStep);
     if (!(lowestM > 0)) {
@@ -310,14 +310,14 @@ double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction) {
 }
 
 std::size_t chunkBytesCpu(const PlanetShape& shape) {
-    // The vector of heights and its reference counts are in another allocation.
-    constexpr std::size_t sharing = sizeof(std::vector<std::int16_t>) + 2 * sizeof(void*);
-    return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t) + sizeof(ChunkNode) +
+    // The object of heights and its reference counts are in another allocation.
+    constexpr std::size_t sharing = sizeof(Steps) + 2 * sizeof(void*);
+    return static_cast<std::size_t>(chunkVertexCount(shape)) * stepBytesOf(shape) + sizeof(ChunkNode) +
            sharing;
 }
 
 std::size_t chunkBytesGpu(const PlanetShape& shape) {
-    return static_cast<std::size_t>(chunkVertexCount(shape)) * sizeof(std::int16_t);
+    return static_cast<std::size_t>(chunkVertexCount(shape)) * stepBytesOf(shape);
 }
 
 }  // namespace planet

@@ -30,7 +30,7 @@
 namespace planet {
 
 // Loader threads share the heights: they refine a parent's heights even after the tree has dropped it.
-using SharedHeights = std::shared_ptr<const std::vector<std::int16_t>>;
+using SharedHeights = std::shared_ptr<const Steps>;
 
 // A chunk that is loaded and drawable.
 struct ChunkNode {
@@ -41,13 +41,13 @@ struct ChunkNode {
     float storedDeltaTightM = 0;  // as in the file
     float minHeightM = 0;         // over all finest samples below
     float maxHeightM = 0;
-    std::int16_t minStep = 0;  // the same, in stored steps
-    std::int16_t maxStep = 0;
+    std::int32_t minStep = 0;  // the same, in stored steps
     ChunkBounds bounds;
     glm::dvec3 directionLow{0, 0, 0};  // along its box's axes; makes updating bounds cheap
     glm::dvec3 directionHigh{0, 0, 0};
     NodeIndex parent = noNode;
     NodeIndex firstChild = noNode;  // four in sequence, in quadrant order
+    std::int32_t maxStep = 0;       // belongs to minStep; here it fills a gap
     ChildrenState childrenState = ChildrenState::None;
     BlockLocation children;           // in the file
     std::uint32_t slot = 0;           // in the pool of heights
@@ -61,8 +61,8 @@ struct ChunkTree {
     PlanetShape shape;         // exaggerated
     PlanetShape storedShape;   // as in the file
     double exaggeration = 1;   // factor on all heights
-    std::int16_t minStep = 0;  // over the whole planet
-    std::int16_t maxStep = 0;
+    std::int32_t minStep = 0;  // over the whole planet
+    std::int32_t maxStep = 0;
     std::uint64_t allChunks = 0;        // of the planet, resident or not
     double occluderRadiusM = 0;         // of a sphere inside every surface the tree can draw
     std::vector<ChunkNode> nodes;       // first the six roots, in face order; the rest free or in fours
@@ -78,7 +78,7 @@ inline bool isSparse(const ChunkTree& tree) {
 // Makes the tree of six roots, given in face order. They stay resident and take slots 0 to 5. The planet
 // counts as dense; set allChunks if it is not. The Error names an invalid root, or a lowest height below the
 // planet's centre.
-Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int16_t minStep, std::int16_t maxStep,
+Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int32_t minStep, std::int32_t maxStep,
                                 std::array<ChunkData, faceCount>&& roots);
 
 // Exaggerates heights by a factor, (0, largestExaggeration]: updates the shape, and the heights, bounds and
@@ -122,7 +122,8 @@ double residentHeightM(const ChunkTree& tree, const glm::dvec3& direction);
 // triangles lie below it, on a root chunk by kilometres.
 double sampledHeightM(const ChunkTree& tree, const glm::dvec3& direction);
 
-// Return the bytes of one resident chunk: its node and heights in memory, and its heights in the GPU's pool.
+// Return the bytes of one resident chunk: its node and heights in memory, and its heights in the GPU's pool. In a file with fractions
+// of its quantum, steps of 32 bits are assumed in memory; most chunks need 16.
 std::size_t chunkBytesCpu(const PlanetShape& shape);
 std::size_t chunkBytesGpu(const PlanetShape& shape);
 

@@ -1,6 +1,6 @@
 // Fuzzes the decoders of a chunk file's blocks: coded heights and packed colours. The first byte of an input
 // chooses the decoder, the second the size of the grid.
-#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "planet/format/colour_tile.h"
@@ -13,32 +13,48 @@ using namespace planet;
 using fuzz::isRead;
 using fuzz::require;
 
+// The high bits of the byte of the size choose the fractions.
+int fractionBitsOf(std::uint8_t sizeByte) {
+    constexpr std::array<int, 4> choices = {0, 6, 12, 1};
+    return choices[sizeByte >> 6];
+}
+
+void requireLimits(const Steps& steps, int fractionBits) {
+    const auto [lowest, highest] = lowestAndHighest(steps);
+    require(lowest >= lowestStepOf(fractionBits) && highest <= highestStepOf(fractionBits),
+            "steps are within their limits");
+}
+
 void decodeWholeGrid(std::uint8_t sizeByte, std::span<const std::byte> coded) {
-    const int size = (1 << sizeByte % 7) + 1;
-    std::vector<std::int16_t> grid(static_cast<std::size_t>(size * size));
-    if (!isRead(decodeGrid(coded, size, grid))) return;
+    const int size = (1 << (sizeByte & 63) % 7) + 1;
+    const int fractionBits = fractionBitsOf(sizeByte);
+    const auto grid = decodeGrid(coded, size, fractionBits);
+    if (!isRead(grid)) return;
+    requireLimits(*grid, fractionBits);
     std::vector<std::byte> again;
-    encodeGrid(grid, size, again);
-    std::vector<std::int16_t> decoded(grid.size());
-    require(isRead(decodeGrid(again, size, decoded)) && decoded == grid, "what is encoded decodes the same");
+    encodeGrid(grid->view().toVector(), size, fractionBits, again);
+    const auto decoded = decodeGrid(again, size, fractionBits);
+    require(isRead(decoded) && *decoded == *grid, "what is encoded decodes the same");
 }
 
 void decodeFineGrid(std::uint8_t cellsByte, std::uint8_t pattern, std::span<const std::byte> coded) {
-    const int cells = 1 + cellsByte % 40;
+    const int cells = 1 + (cellsByte & 63) % 40;
+    const int fractionBits = fractionBitsOf(cellsByte);
     const auto side = static_cast<std::size_t>(cells) + 1;
-    std::vector<std::int16_t> coarse(side * side);
+    std::vector<std::int32_t> coarse(side * side);
     for (std::size_t i = 0; i < coarse.size(); ++i)
-        coarse[i] = static_cast<std::int16_t>(pattern * (i % side + 3 * i * i));
+        coarse[i] = static_cast<std::int16_t>(pattern * (i % side + 3 * i * i)) * (1 << fractionBits / 2);
     const auto fineSide = 2 * static_cast<std::size_t>(cells) + 1;
-    std::vector<std::int16_t> fine(fineSide * fineSide);
-    if (!isRead(decodeRefinement(coded, coarse, cells, fine))) return;
+    const Steps known{std::span<const std::int32_t>(coarse)};
+    const auto fine = decodeRefinement(coded, known, cells, fractionBits);
+    if (!isRead(fine)) return;
+    requireLimits(*fine, fractionBits);
     for (std::size_t i = 0; i < coarse.size(); ++i)
-        require(fine[i / side * 2 * fineSide + i % side * 2] == coarse[i], "coarse samples stay");
+        require((*fine)[i / side * 2 * fineSide + i % side * 2] == coarse[i], "coarse samples stay");
     std::vector<std::byte> again;
-    encodeRefinement(fine, cells, 1, again);
-    std::vector<std::int16_t> decoded(fine.size());
-    require(isRead(decodeRefinement(again, coarse, cells, decoded)) && decoded == fine,
-            "what is encoded decodes the same");
+    encodeRefinement(fine->view().toVector(), cells, 1, fractionBits, again);
+    const auto decoded = decodeRefinement(again, known, cells, fractionBits);
+    require(isRead(decoded) && *decoded == *fine, "what is encoded decodes the same");
 }
 
 void unpackTile(ColourFormat format, std::span<const std::byte> packed) {

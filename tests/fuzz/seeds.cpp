@@ -119,23 +119,40 @@ Bytes decoderInput(int kind, int size, std::span<const std::byte> coded) {
 
 void codedBlocks(const fs::path& folder) {
     const test::Square earth = test::earthWindow(2600, 700, 65);
-    for (int log2 = 0; log2 <= 6; ++log2) {
-        const int size = (1 << log2) + 1;
-        Bytes coded;
-        encodeGrid(test::pieceOf(earth, 0, 0, size).samples, size, coded);
-        write(folder / ("grid_" + std::to_string(size)), decoderInput(0, log2, coded));
-    }
-    // The coarse grid is zeros, like the decoder's pattern 0.
-    for (const int cells : {1, 2, 8, 16, 32}) {
-        test::Square fine = test::pieceOf(earth, 0, 0, 2 * cells + 1);
-        for (int y = 0; y < fine.side; y += 2)
-            for (int x = 0; x < fine.side; x += 2)
-                fine.samples[static_cast<std::size_t>(y * fine.side + x)] = 0;
-        for (int level = minCompressionLevel; level <= maxCompressionLevel; ++level) {
+    // Without fractions, and with 6 bits of them: in whole quanta, and with steps of single ones.
+    struct Kind {
+        const char* name;
+        int fractionBits;
+        int high;  // bits of the byte of the size
+        std::int32_t factor;
+        std::int32_t wiggle;
+    };
+    for (const Kind& kind : {Kind{"", 0, 0, 1, 0}, Kind{"_shifted", 6, 64, 64, 0}, Kind{"_fine", 6, 64, 1, 0},
+                             Kind{"_wide", 6, 64, 64, 1}}) {
+        test::Square ground = earth;
+        for (std::size_t i = 0; i < ground.samples.size(); ++i)
+            ground.samples[i] =
+                ground.samples[i] * kind.factor + static_cast<std::int32_t>(i % 2) * kind.wiggle;
+        for (int log2 = 0; log2 <= 6; ++log2) {
+            const int size = (1 << log2) + 1;
             Bytes coded;
-            encodeRefinement(fine.samples, cells, level, coded);
-            write(folder / ("refinement_" + std::to_string(cells) + "_" + std::to_string(level)),
-                  decoderInput(1, cells - 1, coded));
+            encodeGrid(test::pieceOf(ground, 0, 0, size).samples, size, kind.fractionBits, coded);
+            write(folder / ("grid_" + std::to_string(size) + kind.name),
+                  decoderInput(0, kind.high + log2, coded));
+        }
+        // The coarse grid is zeros, like the decoder's pattern 0.
+        for (const int cells : {1, 2, 8, 16, 32}) {
+            test::Square fine = test::pieceOf(ground, 0, 0, 2 * cells + 1);
+            for (int y = 0; y < fine.side; y += 2)
+                for (int x = 0; x < fine.side; x += 2)
+                    fine.samples[static_cast<std::size_t>(y * fine.side + x)] = 0;
+            for (int level = minCompressionLevel; level <= maxCompressionLevel; ++level) {
+                Bytes coded;
+                encodeRefinement(fine.samples, cells, level, kind.fractionBits, coded);
+                write(folder /
+                          ("refinement_" + std::to_string(cells) + "_" + std::to_string(level) + kind.name),
+                      decoderInput(1, kind.high + cells - 1, coded));
+            }
         }
     }
     const ColourSource colours = must(openColourSource(data / "earth/colour.jpg"));
@@ -213,7 +230,7 @@ void recordedFlights(const fs::path& folder) {
 void rawFaces(const fs::path& folder) {
     const test::Square earth = test::earthWindow(2600, 700, 9);
     Bytes shorts;
-    for (const std::int16_t sample : earth.samples) ByteWriter(shorts).put(sample);
+    for (const std::int32_t sample : earth.samples) ByteWriter(shorts).put(static_cast<std::int16_t>(sample));
     const auto seed = [&](const std::string& name, std::vector<int> options, std::span<const std::byte> bytes,
                           int times) {
         Bytes input;

@@ -46,7 +46,7 @@ void keep(Reading& reading, const ChunkData& chunk) {
     numbers.put(chunk.deltaTightM);
     numbers.put(chunk.minStep);
     numbers.put(chunk.maxStep);
-    for (const std::int16_t height : chunk.heights) numbers.put(height);
+    for (const std::int32_t height : chunk.heights) numbers.put(height);
 }
 
 bool areAt(const Reading& reading, std::uint64_t offset, const std::vector<std::byte>& expected) {
@@ -56,15 +56,17 @@ bool areAt(const Reading& reading, std::uint64_t offset, const std::vector<std::
 }
 
 // Joins the four quarters.
-std::vector<std::int16_t> joined(const std::array<ChunkData, quadrantCount>& children, int cells) {
+std::vector<std::int32_t> joined(const std::array<ChunkData, quadrantCount>& children, int cells) {
     const auto side = static_cast<std::size_t>(cells) + 1;
     const std::size_t fineSide = 2 * static_cast<std::size_t>(cells) + 1;
-    std::vector<std::int16_t> fine(fineSide * fineSide);
+    std::vector<std::int32_t> fine(fineSide * fineSide);
     for (std::size_t q = 0; q < quadrantCount; ++q)
         for (std::size_t j = 0; j < side; ++j)
-            std::copy_n(children[q].heights.begin() + static_cast<std::ptrdiff_t>(j * side), side,
-                        fine.begin() + static_cast<std::ptrdiff_t>(((q / 2) * (side - 1) + j) * fineSide +
-                                                                   (q % 2) * (side - 1)));
+            children[q]
+                .heights.view()
+                .subspan(j * side, side)
+                .copyTo(std::span(fine).subspan(((q / 2) * (side - 1) + j) * fineSide + (q % 2) * (side - 1),
+                                                side));
     return fine;
 }
 
@@ -74,7 +76,8 @@ void readBelow(Reading& reading, const ChunkData& parent) {
     ++reading.blocks;
     const int cells = chunkCells(reading.file.info().shape);
     std::vector<std::byte> coded;
-    encodeRefinement(joined(children, cells), cells, defaultCompressionLevel, coded);
+    encodeRefinement(joined(children, cells), cells, defaultCompressionLevel,
+                     reading.file.info().shape.fractionBits, coded);
     std::uint64_t indexBytes = 1;
     for (const ChunkData& child : children) indexBytes += child.children.exists() ? chunkEntryBytes : 0;
     reading.rewrittenOtherwise += !areAt(reading, parent.children.offset + indexBytes, coded);

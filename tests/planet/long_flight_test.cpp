@@ -106,8 +106,8 @@ void fly(Planet& planet, double seconds, FlownHour& flown) {
             inputOf(viewFromPose(above, planet.tree().shape.radiusM, 1, 640, 480), 4, 0.5)};
         // On every third leg two views share the planet.
         planet.step(
-            std::span(views).first(flown.legs % 3 == 0 ? 2 : 1),
-            [](std::uint32_t, std::span<const std::int16_t>) {}, test::frameS);
+            std::span(views).first(flown.legs % 3 == 0 ? 2 : 1), [](std::uint32_t, StepsView) {},
+            test::frameS);
         flown.problems += planet.takeProblems().size();
         flown.framesShort += planet.paging()[BlockKind::Heights].budgetWaits +
                                  planet.paging()[BlockKind::Colours].budgetWaits >

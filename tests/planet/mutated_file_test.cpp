@@ -97,9 +97,9 @@ PagingSettings pagingSettings(bool tight) {
 
 // Fills what a renderer would draw from.
 struct FilledSlots {
-    std::vector<std::vector<std::int16_t>> slots;
+    std::vector<std::vector<std::int32_t>> slots;
 
-    void put(std::uint32_t slot, std::span<const std::int16_t> heights) {
+    void put(std::uint32_t slot, StepsView heights) {
         if (slots.size() <= slot) slots.resize(slot + std::size_t{1});
         slots[slot].assign(heights.begin(), heights.end());
     }
@@ -143,7 +143,7 @@ bool isDrawable(const Planet& planet, const DrawItem& item, const FilledSlots& p
     const ChunkNode& node = planet.tree().nodes[item.node];
     return node.id == item.id && node.slot == item.slot &&
            item.slot < planet.paging()[BlockKind::Heights].capacity && item.slot < pool.slots.size() &&
-           pool.slots[item.slot] == *node.heights && std::isfinite(item.epsPx) &&
+           pool.slots[item.slot] == node.heights->view().toVector() && std::isfinite(item.epsPx) &&
            std::isfinite(item.skirtDepthM) && item.morph >= 0 && item.morph <= 1;
 }
 

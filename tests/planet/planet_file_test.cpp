@@ -18,7 +18,7 @@ View overHills() {
         6'371'000, 1.0, 1280, 720);
 }
 
-void ignoreUpload(std::uint32_t, std::span<const std::int16_t>) {}
+void ignoreUpload(std::uint32_t, StepsView) {}
 
 void flipByte(const std::filesystem::path& path, std::uint64_t offset) {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);

@@ -20,12 +20,11 @@ using testing::HasSubstr;
 
 // What a renderer would hold.
 struct RendererSlots {
-    std::map<std::uint32_t, std::vector<std::int16_t>> heights;
+    std::map<std::uint32_t, std::vector<std::int32_t>> heights;
 
     UploadChunk upload() {
-        return [this](std::uint32_t slot, std::span<const std::int16_t> steps) {
-            heights[slot].assign(steps.begin(), steps.end());
-        };
+        return
+            [this](std::uint32_t slot, StepsView steps) { heights[slot].assign(steps.begin(), steps.end()); };
     }
     void recreate(const Planet& planet) {
         heights.clear();
@@ -44,7 +43,7 @@ void expectWhole(const Planet& planet, const RendererSlots& pool) {
         }
         const auto found = pool.heights.find(node.slot);
         ASSERT_TRUE(found != pool.heights.end()) << toString(node.id);
-        EXPECT_EQ(found->second, *node.heights);
+        EXPECT_EQ(found->second, node.heights->view().toVector());
     });
     EXPECT_LE(slots.size(), planet.paging()[BlockKind::Heights].capacity);
     EXPECT_EQ(slots.size(), planet.tree().residentChunks);

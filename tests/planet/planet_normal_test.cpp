@@ -128,8 +128,7 @@ struct SlowlyRead {
     explicit SlowlyRead(PagingSettings settings) {
         PlanetSource source = made.source();
         source.loadChildren = [this, load = source.loadChildren](const ChunkId& parent,
-                                                                 BlockLocation location,
-                                                                 std::span<const std::int16_t> heights) {
+                                                                 BlockLocation location, StepsView heights) {
             ++reads;
             gate.pass();
             return load(parent, location, heights);

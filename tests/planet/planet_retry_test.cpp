@@ -51,7 +51,7 @@ struct Flaky {
     PlanetSource source() {
         PlanetSource made = fakePyramid().source();
         made.loadChildren = [this](const ChunkId& parent, BlockLocation location,
-                                   std::span<const std::int16_t> heights) -> Result<SiblingBlock> {
+                                   StepsView heights) -> Result<SiblingBlock> {
             if (auto error = next(parent)) return tl::unexpected(std::move(*error));
             return fakePyramid().load(parent, location, heights);
         };

@@ -105,8 +105,7 @@ PagingSettings troubled() {
 
 PlanetSource slowSource() {
     PlanetSource source = fakePyramid().source();
-    source.loadChildren = [](const ChunkId& parent, BlockLocation location,
-                             std::span<const std::int16_t> heights) {
+    source.loadChildren = [](const ChunkId& parent, BlockLocation location, StepsView heights) {
         std::this_thread::sleep_for(std::chrono::microseconds(keyOf(parent) % 400));
         return fakePyramid().load(parent, location, heights);
     };

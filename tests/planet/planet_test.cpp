@@ -62,8 +62,8 @@ TEST(Planet, ForgottenSelectionsDoNotKeepChunksSplit) {
 
 TEST(Planet, EachResidentChunkIsUploadedToASlotOfItsOwn) {
     const auto planet = openFake(fakePyramid().source(), 120);
-    std::map<std::uint32_t, std::vector<std::int16_t>> pool;
-    const UploadChunk upload = [&](std::uint32_t slot, std::span<const std::int16_t> heights) {
+    std::map<std::uint32_t, std::vector<std::int32_t>> pool;
+    const UploadChunk upload = [&](std::uint32_t slot, StepsView heights) {
         ASSERT_LT(slot, planet->paging()[BlockKind::Heights].capacity);
         pool[slot].assign(heights.begin(), heights.end());
     };
@@ -73,7 +73,7 @@ TEST(Planet, EachResidentChunkIsUploadedToASlotOfItsOwn) {
         std::set<std::uint32_t> slots;
         forEachNode(planet->tree(), [&](NodeIndex, const ChunkNode& node) {
             EXPECT_TRUE(slots.insert(node.slot).second);
-            EXPECT_EQ(pool.at(node.slot), *node.heights);
+            EXPECT_EQ(pool.at(node.slot), node.heights->view().toVector());
             EXPECT_EQ(*node.heights, fakePyramid().at(node.id).heights);
         });
         std::set<std::uint32_t> again;
@@ -447,9 +447,9 @@ TEST(Planet, FailedBlocksGiveTheirSlotsBack) {
 
 TEST(Planet, ABlockThatIsNotWhatItShouldBeIsAFailure) {
     PlanetSource source = fakePyramid().source();
-    source.loadChildren = [](const ChunkId& parent, BlockLocation, std::span<const std::int16_t>) {
+    source.loadChildren = [](const ChunkId& parent, BlockLocation, StepsView) {
         SiblingBlock block = fakePyramid().childrenOf(parent);
-        block[1].heights.resize(3);
+        block[1].heights = Steps(block[1].heights.view().narrow().first(3));
         return Result<SiblingBlock>(block);
     };
     const auto planet = openFake(std::move(source));
@@ -461,7 +461,7 @@ TEST(Planet, ABlockThatIsNotWhatItShouldBeIsAFailure) {
 
 TEST(Planet, ABadRootIsAnError) {
     PlanetSource source = fakePyramid().source();
-    source.roots[3].heights.clear();
+    source.roots[3].heights = {};
     const auto refused = Planet::open(std::move(source), {});
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, HasSubstr("y_neg/0/0/0"));

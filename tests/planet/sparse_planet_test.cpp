@@ -31,7 +31,7 @@ const ChunkTree& wholeTree() {
     return tree;
 }
 
-void ignoreUpload(std::uint32_t, std::span<const std::int16_t>) {}
+void ignoreUpload(std::uint32_t, StepsView) {}
 
 // Above a place of the cube, looking about the horizon.
 View viewAt(const glm::dvec3& cube, double altitudeM, double headingDeg = 60, double pitchDeg = -25) {
@@ -149,7 +149,7 @@ double largestFacingPx(const ChunkTree& tree, const DrawItem& item, const View& 
                     std::ldexp(static_cast<int>(node.id.y - (item.id.y << levels)) * cells + j, -levels);
                 const glm::dvec3 direction = sphereFromCube(cubePoint(
                     item.id.face, square.u + square.side * i / cells, square.v + square.side * j / cells));
-                const std::int16_t step = (*node.heights)[static_cast<std::size_t>(j * (cells + 1) + i)];
+                const std::int32_t step = (*node.heights)[static_cast<std::size_t>(j * (cells + 1) + i)];
                 const glm::dvec3 a = positionM(tree.shape, direction, heightM(tree.shape, step)) - view.eyeM;
                 const glm::dvec3 b = pointOn(drawn, x, y) - view.eyeM;
                 most =
@@ -258,7 +258,7 @@ protected:
             roots[face] = {root.id, root.heights, root.children};
         }
         return {wholeTree().storedShape, roots,
-                [](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+                [](const ChunkId& parent, BlockLocation location, StepsView heights) {
                     return sparsePlanet().file->readChildren(parent, location, heights);
                 }};
     }

@@ -92,7 +92,7 @@ private:
     }
 
     UploadChunk upload() {
-        return [this](std::uint32_t slot, std::span<const std::int16_t> steps) {
+        return [this](std::uint32_t slot, StepsView steps) {
             ASSERT_LT(slot, planet_->paging()[BlockKind::Heights].capacity);
             heights_[slot].assign(steps.begin(), steps.end());
         };
@@ -216,7 +216,7 @@ private:
         forEachNode(planet_->tree(), [&](NodeIndex, const ChunkNode& node) {
             ASSERT_TRUE(slots.insert(node.slot).second) << toString(node.id);
             ASSERT_LT(node.slot, planet_->paging()[BlockKind::Heights].capacity);
-            ASSERT_EQ(heights_.at(node.slot), *node.heights) << toString(node.id);
+            ASSERT_EQ(heights_.at(node.slot), node.heights->view().toVector()) << toString(node.id);
         });
         ASSERT_EQ(slots.size(), planet_->tree().residentChunks);
         for (std::size_t v = 0; v < planet_->views().size(); ++v) {
@@ -233,7 +233,7 @@ private:
     std::mt19937 random_;
     PagingSettings settings_;
     std::unique_ptr<Planet> planet_;
-    std::map<std::uint32_t, std::vector<std::int16_t>> heights_;  // by slot
+    std::map<std::uint32_t, std::vector<std::int32_t>> heights_;  // by slot
     HeldTiles colours_, normals_;
     std::uint64_t opened_ = 0;
     std::uint64_t loaded_ = 0;

@@ -14,9 +14,9 @@ namespace planet::test {
 // A square grid of steps, row-major.
 struct Square {
     int side = 0;
-    std::vector<std::int16_t> samples;
+    std::vector<std::int32_t> samples;
 
-    std::int16_t at(int x, int y) const { return samples[static_cast<std::size_t>(y * side + x)]; }
+    std::int32_t at(int x, int y) const { return samples[static_cast<std::size_t>(y * side + x)]; }
 };
 
 // The square with its corner at sample x, y of data/earth/elevation.tif: metres, 4320 x 2160. Throws where it

@@ -28,7 +28,7 @@ public:
             pose_.altitudeM = 4e6 * (1 - share) + altitudeM * share;
             pose_.pitchDeg = -90 + 60 * share;
             view_ = planet::viewFromPose(pose_, planet_->tree().shape.radiusM, 1.05, 1280, 720);
-            const auto upload = [](std::uint32_t, std::span<const std::int16_t>) {};
+            const auto upload = [](std::uint32_t, planet::StepsView) {};
             if (frame + 1 == frames)
                 planet_->settle(view_, lod, upload, 60);
             else

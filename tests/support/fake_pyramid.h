@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace planet {
 
 struct FakePyramid {
     PlanetShape shape;
-    std::int16_t minStep = 0;
-    std::int16_t maxStep = 0;
+    std::int32_t minStep = 0;
+    std::int32_t maxStep = 0;
     std::unordered_map<ChunkId, ChunkData> chunks;
 
     const ChunkData& at(const ChunkId& id) const { return chunks.at(id); }
@@ -36,8 +37,7 @@ struct FakePyramid {
     }
 
     // Fails, as a reader would, when it is given another chunk's place or heights.
-    Result<SiblingBlock> load(const ChunkId& parent, BlockLocation location,
-                              std::span<const std::int16_t> parentHeights) const {
+    Result<SiblingBlock> load(const ChunkId& parent, BlockLocation location, StepsView parentHeights) const {
         const ChunkData& above = at(parent);
         if (location != above.children) return badInput("wrong place for " + toString(parent));
         if (!std::equal(parentHeights.begin(), parentHeights.end(), above.heights.begin(),
@@ -53,8 +53,7 @@ struct FakePyramid {
         made.minStep = minStep;
         made.maxStep = maxStep;
         made.roots = roots();
-        made.loadChildren = [this](const ChunkId& parent, BlockLocation location,
-                                   std::span<const std::int16_t> heights) {
+        made.loadChildren = [this](const ChunkId& parent, BlockLocation location, StepsView heights) {
             return load(parent, location, heights);
         };
         return made;
@@ -143,14 +142,14 @@ inline ChunkData cutChunk(const PlanetShape& shape, const FaceGrid& grid, const 
     const int firstRow = static_cast<int>(id.y) * cells * stride;
     ChunkData data;
     data.id = id;
+    std::vector<std::int16_t> steps;
     for (int j = 0; j <= cells; ++j) {
         for (int i = 0; i <= cells; ++i) {
-            data.heights.push_back(grid.steps[grid.at(firstColumn + i * stride, firstRow + j * stride)]);
+            steps.push_back(grid.steps[grid.at(firstColumn + i * stride, firstRow + j * stride)]);
         }
     }
-    const auto [low, high] = std::minmax_element(data.heights.begin(), data.heights.end());
-    data.minStep = *low;
-    data.maxStep = *high;
+    data.heights = steps;
+    std::tie(data.minStep, data.maxStep) = lowestAndHighest(data.heights);
     if (stride > 1) {
         data.deltaCM = static_cast<float>(ownErrorM(grid, firstColumn, firstRow, cells, stride));
         data.deltaTightM = static_cast<float>(finestDistanceM(grid, firstColumn, firstRow, cells, stride));

@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,8 +23,8 @@ struct MadeChunks {
     PlanetShape shape;
     std::function<double(const glm::dvec3& direction)> heightM;
     // Bounds that hold of every formula.
-    static constexpr std::int16_t lowest = std::numeric_limits<std::int16_t>::min();
-    static constexpr std::int16_t highest = std::numeric_limits<std::int16_t>::max();
+    static constexpr std::int32_t lowest = std::numeric_limits<std::int16_t>::min();
+    static constexpr std::int32_t highest = std::numeric_limits<std::int16_t>::max();
     std::optional<ChunkId> broken;  // whose block of children cannot be read
     ErrorKind brokenBy = ErrorKind::BadInput;
 
@@ -41,14 +42,14 @@ struct MadeChunks {
         const int cells = size << id.level;
         ChunkData data;
         data.id = id;
+        std::vector<std::int16_t> steps;
         for (int row = 0; row <= size; ++row) {
             for (int column = 0; column <= size; ++column)
-                data.heights.push_back(step(id.face, static_cast<int>(id.x) * size + column,
-                                            static_cast<int>(id.y) * size + row, cells));
+                steps.push_back(step(id.face, static_cast<int>(id.x) * size + column,
+                                     static_cast<int>(id.y) * size + row, cells));
         }
-        const auto [low, high] = std::minmax_element(data.heights.begin(), data.heights.end());
-        data.minStep = *low;
-        data.maxStep = *high;
+        data.heights = steps;
+        std::tie(data.minStep, data.maxStep) = lowestAndHighest(data.heights);
         if (id.level < deepestLevelOf(shape)) {
             data.children = {keyOf(id) + 1, 100};
             data.minStep = lowest;
@@ -73,17 +74,14 @@ struct MadeChunks {
 
     // This must outlive them.
     LoadChildren loader() const {
-        return [this](const ChunkId& parent, BlockLocation, std::span<const std::int16_t>) {
-            return children(parent);
-        };
+        return [this](const ChunkId& parent, BlockLocation, StepsView) { return children(parent); };
     }
     std::array<HeldChunk, faceCount> roots() const {
         std::array<HeldChunk, faceCount> held;
         for (const Face face : allFaces) {
             ChunkData root = chunk({face, 0, 0, 0});
             held[static_cast<std::size_t>(face)] = {
-                root.id, std::make_shared<const std::vector<std::int16_t>>(std::move(root.heights)),
-                root.children};
+                root.id, std::make_shared<const Steps>(std::move(root.heights)), root.children};
         }
         return held;
     }

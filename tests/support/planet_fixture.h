@@ -71,8 +71,7 @@ struct Gated {
 
     PlanetSource source() {
         PlanetSource source = fakePyramid().source();
-        source.loadChildren = [this](const ChunkId& parent, BlockLocation location,
-                                     std::span<const std::int16_t> heights) {
+        source.loadChildren = [this](const ChunkId& parent, BlockLocation location, StepsView heights) {
             {
                 const std::lock_guard lock(mutex);
                 asked.push_back(parent);
@@ -94,7 +93,7 @@ struct Faulty {
     PlanetSource source() {
         PlanetSource source = fakePyramid().source();
         source.loadChildren = [this](const ChunkId& parent, BlockLocation location,
-                                     std::span<const std::int16_t> heights) -> Result<SiblingBlock> {
+                                     StepsView heights) -> Result<SiblingBlock> {
             if (broken && affects(parent)) {
                 ++failures;
                 return ioError("children of " + toString(parent) + ": the disk is bad");

@@ -27,14 +27,16 @@ ChunkData chunkOf(const PlanetShape& shape, const ChunkId& id) {
     if (!leaf) chunk.children = {keyOf(id) + 1, 100};
     const FaceSquare square = faceSquareOf(id);
     const int size = chunkSize(shape);
-    chunk.heights.reserve(static_cast<std::size_t>(chunkVertexCount(shape)));
+    std::vector<std::int16_t> steps;
+    steps.reserve(static_cast<std::size_t>(chunkVertexCount(shape)));
     for (int row = 0; row < size; ++row) {
         for (int column = 0; column < size; ++column) {
             const double u = square.u + square.side * column / (size - 1);
             const double v = square.v + square.side * row / (size - 1);
-            chunk.heights.push_back(static_cast<std::int16_t>(400 * std::sin(9 * u) * std::cos(7 * v)));
+            steps.push_back(static_cast<std::int16_t>(400 * std::sin(9 * u) * std::cos(7 * v)));
         }
     }
+    chunk.heights = steps;
     return chunk;
 }
 
@@ -48,7 +50,7 @@ PlanetSource wavyPlanet() {
         source.roots[static_cast<std::size_t>(face)] = chunkOf(source.shape, {face, 0, 0, 0});
     }
     source.loadChildren = [shape = source.shape](const ChunkId& parent, BlockLocation,
-                                                 std::span<const std::int16_t>) -> Result<SiblingBlock> {
+                                                 planet::StepsView) -> Result<SiblingBlock> {
         SiblingBlock block;
         for (int q = 0; q < quadrantCount; ++q)
             block[static_cast<std::size_t>(q)] = chunkOf(shape, childOf(parent, q));

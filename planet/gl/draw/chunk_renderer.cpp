@@ -117,7 +117,7 @@ struct ChunkRenderer::State {
     RenderCounters counters;
     Projection projection;
     HeightPool pool;
-    std::vector<std::int16_t> highestSteps;  // by slot
+    std::vector<std::int32_t> highestSteps;  // by slot
     std::shared_ptr<ChunkPrograms> programs;
     Program capture;  // made on first use
     Switches captureSwitches = 0;
@@ -174,7 +174,7 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, L
     : config(from),
       capabilities(findCapabilities()),
       pool(std::move(heightPool)),
-      highestSteps(from.slotCapacity, std::numeric_limits<std::int16_t>::min()),
+      highestSteps(from.slotCapacity, std::numeric_limits<std::int32_t>::min()),
       programs(from.programs),
       noise(detailNoiseTexture()),
       chunkArray(makeVertexArray()),
@@ -212,7 +212,7 @@ void ChunkRenderer::State::makeGrid() {
 
 // Returns the distance of the highest drawn ground from the planet's centre, metres.
 double ChunkRenderer::State::highestRadiusM(std::span<const DrawItem> items) const {
-    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
+    std::int32_t highest = std::numeric_limits<std::int32_t>::min();
     for (const DrawItem& item : items) highest = std::max(highest, highestSteps[item.slot]);
     return config.shape.radiusM + heightM(config.shape, highest);
 }
@@ -419,7 +419,7 @@ void ChunkRenderer::State::drawSky(const Program& program) const {
 
 Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
     if (const Result<void> usable = checkContext(); !usable) return tl::unexpected(usable.error());
-    Result<HeightPool> pool = HeightPool::create(config.slotCapacity, chunkSize(config.shape));
+    Result<HeightPool> pool = HeightPool::create(config.slotCapacity, config.shape);
     if (!pool) return tl::unexpected(pool.error());
     RendererConfig own = config;
     if (!own.programs) {
@@ -441,18 +441,18 @@ ChunkRenderer::ChunkRenderer(ChunkRenderer&&) noexcept = default;
 ChunkRenderer& ChunkRenderer::operator=(ChunkRenderer&&) noexcept = default;
 ChunkRenderer::~ChunkRenderer() = default;
 
-void ChunkRenderer::upload(std::uint32_t slot, std::span<const std::int16_t> heights) {
+void ChunkRenderer::upload(std::uint32_t slot, StepsView heights) {
     state_->pool.upload(slot, heights);
-    state_->highestSteps[slot] = *std::max_element(heights.begin(), heights.end());
+    state_->highestSteps[slot] = lowestAndHighest(heights).second;
     ++state_->uploads;
 }
 
 Result<void> ChunkRenderer::setSlotCapacity(std::uint32_t slotCapacity) {
-    Result<HeightPool> pool = HeightPool::create(slotCapacity, chunkSize(state_->config.shape));
+    Result<HeightPool> pool = HeightPool::create(slotCapacity, state_->config.shape);
     if (!pool) return tl::unexpected(pool.error());
     state_->pool = std::move(*pool);
     state_->config.slotCapacity = slotCapacity;
-    state_->highestSteps.assign(slotCapacity, std::numeric_limits<std::int16_t>::min());
+    state_->highestSteps.assign(slotCapacity, std::numeric_limits<std::int32_t>::min());
     return {};
 }
 

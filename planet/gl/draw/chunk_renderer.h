@@ -22,6 +22,7 @@
 #include "planet/paging/paging_types.h"
 #include "planet/select/lod_types.h"
 #include "planet/sphere/planet_shape.h"
+#include "planet/sphere/steps.h"
 #include "planet/sphere/view.h"
 #include "planet/surface/atmosphere.h"
 
@@ -51,7 +52,7 @@ public:
     ~ChunkRenderer();
 
     // Uploads chunkVertexCount height steps, row by row from the south, into a slot below slotCapacity.
-    void upload(std::uint32_t slot, std::span<const std::int16_t> heights);
+    void upload(std::uint32_t slot, StepsView heights);
 
     // Takes equirectangular sRGB, 3 bytes per pixel, row 0 at the north, column 0 at longitude -180. Keeps
     // the bound framebuffer and the viewport; leaves depth test, culling, blending and scissor off. On an

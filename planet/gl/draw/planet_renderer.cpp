@@ -23,8 +23,7 @@ PlanetRenderer::PlanetRenderer(ChunkRenderer&& chunks, const Planet& planet)
       exaggeration_(planet.tree().exaggeration) {}
 
 UploadChunk PlanetRenderer::upload() {
-    return
-        [this](std::uint32_t slot, std::span<const std::int16_t> heights) { chunks_.upload(slot, heights); };
+    return [this](std::uint32_t slot, StepsView heights) { chunks_.upload(slot, heights); };
 }
 
 Result<void> PlanetRenderer::fitHeights(const Planet& planet) {

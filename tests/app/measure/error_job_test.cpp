@@ -111,7 +111,7 @@ TEST_F(Errors, AreMeasuredAgainAndAgainWhileThatIsSet) {
 
 TEST_F(Errors, ThatCannotBeMeasuredSayWhyAndStop) {
     meter_.heights = std::make_shared<planet::FinestHeights>(
-        [](const planet::ChunkId& parent, planet::BlockLocation, std::span<const std::int16_t>) {
+        [](const planet::ChunkId& parent, planet::BlockLocation, planet::StepsView) {
             return planet::Result<planet::SiblingBlock>(
                 planet::ioError("hills.chk: reading the block of chunk " + planet::toString(parent)));
         });

@@ -69,7 +69,7 @@ protected:
         planet::LodSettings lod = planet::suddenLod();
         lod.tauPx = 2;
         planet_->settle(
-            view_, lod, [](std::uint32_t, std::span<const std::int16_t>) {}, 60);
+            view_, lod, [](std::uint32_t, planet::StepsView) {}, 60);
     }
     planet::Lines linesOf(const CameraSettings& settings, std::optional<planet::ChunkId> selected = {}) {
         return observerLines(*planet_, view_, settings, selected);

@@ -27,7 +27,7 @@ std::unique_ptr<planet::Planet> settledPlanet() {
     view.right = {0, 1, 0};
     view.up = {0, 0, 1};
     view.back = {1, 0, 0};
-    const planet::UploadChunk upload = [](std::uint32_t, std::span<const std::int16_t>) {};
+    const planet::UploadChunk upload = [](std::uint32_t, planet::StepsView) {};
     EXPECT_TRUE((*opened)->settle(view, planet::suddenLod(1), upload, 20));
     return std::move(*opened);
 }

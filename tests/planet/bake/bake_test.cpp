@@ -65,7 +65,7 @@ TEST(Bake, everyChunkAndFaceSizeHoldsTheSourcesHeightsAtEveryLevel) {
                 for (int i = 0; i < chunk; ++i) {
                     const double expected = test::hillsM(
                         sphereFromCube(cubePoint(data.id.face, square.u + step * i, square.v + step * j)));
-                    const std::int16_t stored = data.heights[static_cast<std::size_t>(j * chunk + i)];
+                    const std::int32_t stored = data.heights[static_cast<std::size_t>(j * chunk + i)];
                     ASSERT_EQ(heightM(shape, stored), expected) << toString(data.id) << " " << i << "," << j;
                 }
             }
@@ -290,8 +290,8 @@ TEST(Quantise, integerSourcesKeepTheirOwnStepsExactly) {
         EXPECT_EQ(shape.quantumM, c.stepM);
         for (double value = c.minM; value <= c.maxM; value += c.stepM * 997) {
             const std::vector<float> heights = {static_cast<float>(value)};
-            std::vector<std::int16_t> steps(1);
-            ASSERT_TRUE(quantise(shape, source, heights, steps));
+            std::vector<std::int32_t> steps(1);
+            ASSERT_TRUE(quantise(shape, source, heights, {}, steps));
             EXPECT_NEAR(heightM(shape, steps[0]), value, c.stepM * 0.01);
         }
     }
@@ -313,16 +313,16 @@ TEST(Quantise, overshootIsCutToTheSourcesRangeAndRealHeightsThatDoNotFitAreError
     const auto source = test::formulaSource([](const glm::dvec3&) { return 0.0; }, -32768, 32767, 1);
     PlanetShape shape;
     ASSERT_TRUE(chooseQuantum(source, std::nullopt, shape));
-    std::vector<std::int16_t> steps(2);
-    ASSERT_TRUE(quantise(shape, source, std::vector<float>{40000.f, -40000.f}, steps));
+    std::vector<std::int32_t> steps(2);
+    ASSERT_TRUE(quantise(shape, source, std::vector<float>{40000.f, -40000.f}, {}, steps));
     EXPECT_EQ(steps[0], 32767);
     EXPECT_EQ(steps[1], -32768);
     // An int16 image at a quantum of 10 cm: what lies within 3276 m is kept, Everest is an error that says
     // so.
     ASSERT_TRUE(chooseQuantum(source, 0.1, shape));
-    EXPECT_TRUE(quantise(shape, source, std::vector<float>{3000.f, -3000.f}, steps));
+    EXPECT_TRUE(quantise(shape, source, std::vector<float>{3000.f, -3000.f}, {}, steps));
     EXPECT_EQ(steps[0], 30000);
-    const auto everest = quantise(shape, source, std::vector<float>{8848.f, 0.f}, steps);
+    const auto everest = quantise(shape, source, std::vector<float>{8848.f, 0.f}, {}, steps);
     ASSERT_FALSE(everest);
     EXPECT_NE(everest.error().message.find("8848"), std::string::npos);
 }

@@ -17,19 +17,18 @@
 namespace planet {
 namespace {
 
-using Samples = std::vector<std::int16_t>;
+using Samples = std::vector<std::int32_t>;
 using Bytes = std::vector<std::byte>;
 using test::Square;
+using testing::HasSubstr;
 
-constexpr std::int16_t lowest = -32768;
-constexpr std::int16_t highestStep = 32767;
+constexpr std::int32_t lowest = -32768;
+constexpr std::int32_t highestStep = 32767;
 
 Square squareOf(int side, const std::function<int(int x, int y)>& step) {
     Square square{side, {}};
     for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            square.samples.push_back(
-                static_cast<std::int16_t>(std::clamp(step(x, y), int{lowest}, int{highestStep})));
+        for (int x = 0; x < side; ++x) square.samples.push_back(std::clamp(step(x, y), lowest, highestStep));
     return square;
 }
 
@@ -79,16 +78,15 @@ std::vector<Field> fields() {
 
 Bytes encoded(const Square& fine, int level = defaultCompressionLevel) {
     Bytes bytes;
-    encodeRefinement(fine.samples, fine.side / 2, level, bytes);
+    encodeRefinement(fine.samples, fine.side / 2, level, 0, bytes);
     return bytes;
 }
 
 Result<Samples> decoded(const Bytes& bytes, const Square& fine) {
     const Square coarse = pieceOf(fine, 0, 0, fine.side / 2 + 1, 2);
-    Samples samples(fine.samples.size(), 12345);
-    const auto result = decodeRefinement(bytes, coarse.samples, fine.side / 2, samples);
-    if (!result) return tl::unexpected(result.error());
-    return samples;
+    return decodeRefinement(bytes, coarse.samples, fine.side / 2, 0).map([](const Steps& steps) {
+        return steps.view().toVector();
+    });
 }
 
 std::size_t missingSamples(const Square& fine) {
@@ -104,7 +102,7 @@ double bitsPerSample(const Square& fine, int level = defaultCompressionLevel) {
 double pyramidBitsPerSample(const Square& square, int coarseCells, int level = defaultCompressionLevel) {
     Bytes bytes;
     for (const test::Block& block : test::pyramidBlocks(square, coarseCells))
-        encodeRefinement(block.fine.samples, coarseCells, level, bytes);
+        encodeRefinement(block.fine.samples, coarseCells, level, 0, bytes);
     return 8.0 * static_cast<double>(bytes.size()) / static_cast<double>(square.samples.size());
 }
 
@@ -157,7 +155,7 @@ TEST(HeightCodec, BytesOfAKnownFieldNeverChange) {
 TEST(HeightCodec, AppendsBehindWhatIsThere) {
     const Square fine = squareOf(17, smoothStep);
     Bytes bytes = {std::byte{1}, std::byte{2}};
-    encodeRefinement(fine.samples, 8, defaultCompressionLevel, bytes);
+    encodeRefinement(fine.samples, 8, defaultCompressionLevel, 0, bytes);
     const Bytes alone = encoded(fine);
     EXPECT_EQ(bytes.size(), alone.size() + 2);
     EXPECT_TRUE(std::ranges::equal(std::span(bytes).subspan(2), alone));
@@ -274,7 +272,7 @@ TEST(HeightCodec, DecodeKeepsTheCoarseSamples) {
 
 Bytes encodedGrid(const Square& grid) {
     Bytes bytes;
-    encodeGrid(grid.samples, grid.side, bytes);
+    encodeGrid(grid.samples, grid.side, 0, bytes);
     return bytes;
 }
 
@@ -282,10 +280,9 @@ TEST(HeightCodec, EveryGridComesBack) {
     for (const Field& field : fields()) {
         for (const int side : {2, 3, 5, 17, 33, 65, 129}) {
             const Square grid = field.make(side);
-            Samples samples(grid.samples.size());
-            const auto result = decodeGrid(encodedGrid(grid), side, samples);
+            const auto result = decodeGrid(encodedGrid(grid), side, 0);
             ASSERT_TRUE(result) << result.error().message;
-            ASSERT_EQ(samples, grid.samples) << field.name << ", side " << side;
+            ASSERT_EQ(result->view().toVector(), grid.samples) << field.name << ", side " << side;
         }
     }
 }
@@ -298,11 +295,10 @@ TEST(HeightCodec, GridsAreCompressed) {
 TEST(HeightCodec, DecodeGridRejectsCutAndLongData) {
     const Square grid = pieceOf(europeAndAfrica(), 0, 0, 17, 64);
     Bytes bytes = encodedGrid(grid);
-    Samples samples(grid.samples.size());
     for (std::size_t length = 0; length < bytes.size(); ++length)
-        EXPECT_FALSE(decodeGrid(std::span(bytes).first(length), 17, samples)) << length;
+        EXPECT_FALSE(decodeGrid(std::span(bytes).first(length), 17, 0)) << length;
     bytes.push_back(std::byte{0});
-    EXPECT_FALSE(decodeGrid(bytes, 17, samples));
+    EXPECT_FALSE(decodeGrid(bytes, 17, 0));
 }
 
 TEST(HeightCodec, DecodeGridSurvivesFlippedBits) {
@@ -312,14 +308,202 @@ TEST(HeightCodec, DecodeGridSurvivesFlippedBits) {
     for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
         Bytes bytes = good;
         bytes[bit / 8] ^= static_cast<std::byte>(1 << bit % 8);
-        Samples samples(grid.samples.size());
-        if (decodeGrid(bytes, 17, samples) && samples == grid.samples) ++harmless;
+        const auto read = decodeGrid(bytes, 17, 0);
+        if (read && read->view().toVector() == grid.samples) ++harmless;
     }
     EXPECT_LT(harmless, 8 * good.size() / 20);
 }
 
+// ---- Fractions of the quantum ----
+
+constexpr int fractions = 6;
+
+Bytes encodedFine(const Square& fine, int fractionBits = fractions) {
+    Bytes bytes;
+    encodeRefinement(fine.samples, fine.side / 2, defaultCompressionLevel, fractionBits, bytes);
+    return bytes;
+}
+Result<Steps> decodedFine(const Bytes& bytes, const Square& fine, int fractionBits = fractions) {
+    const Steps coarse(std::span<const std::int32_t>(pieceOf(fine, 0, 0, fine.side / 2 + 1, 2).samples));
+    return decodeRefinement(bytes, coarse, fine.side / 2, fractionBits);
+}
+int storageOf(const Bytes& bytes) {
+    return std::to_integer<int>(bytes[0]) & 7;
+}
+int shiftOf(const Bytes& bytes) {
+    return std::to_integer<int>(bytes[0]) >> 3;
+}
+
+Square scaled(Square square, std::int32_t factor, std::int32_t offset = 0) {
+    for (std::int32_t& sample : square.samples) sample = factor * sample + offset;
+    return square;
+}
+
+// Rough ground of a planet of metres in 1/64 of a metre, which exceeds 16 bits.
+Square wideGround() {
+    Square square = scaled(pieceOf(europeAndAfrica(), 0, 0, 65, 16), 64);
+    for (std::size_t i = 0; i < square.samples.size(); ++i)
+        square.samples[i] += static_cast<std::int32_t>(1 + i * i % 63);
+    return square;
+}
+
+// The same in whole metres but for a corner of noise, as around lidar.
+Square mixedGround(int corner) {
+    Square square = scaled(pieceOf(europeAndAfrica(), 0, 0, 65, 16), 64);
+    std::mt19937 random(5);
+    for (int y = 0; y < corner; ++y)
+        for (int x = 0; x < corner; ++x)
+            square.samples[static_cast<std::size_t>(y * square.side + x)] +=
+                static_cast<std::int32_t>(random() % 64);
+    return square;
+}
+
+TEST(HeightCodec, MultiplesOfTheQuantumCostWhatTheyCostWithoutFractions) {
+    for (const Field& field : fields()) {
+        const Square whole = field.make(33);
+        const Square fine = scaled(whole, 1 << fractions);
+        const Bytes bytes = encodedFine(fine);
+        EXPECT_EQ(shiftOf(bytes), fractions) << field.name;
+        Bytes expected = encoded(whole);
+        expected[0] = bytes[0];
+        EXPECT_EQ(bytes, expected) << field.name;
+        const auto read = decodedFine(bytes, fine);
+        ASSERT_TRUE(read) << field.name << ": " << read.error().message;
+        EXPECT_EQ(read->view().toVector(), fine.samples) << field.name;
+        EXPECT_EQ(read->bytes(), 2 * fine.samples.size()) << "in memory too";
+    }
+}
+
+TEST(HeightCodec, FineGroundFarFromStepZeroFitsIntoSixteenBits) {
+    const Square near = squareOf(65, smoothStep);
+    for (const std::int32_t offset : {1, 1'000'001, -4'000'003}) {
+        const Square far = scaled(near, 1, offset);
+        const Bytes bytes = encodedFine(far);
+        EXPECT_EQ(storageOf(bytes), 1);
+        EXPECT_EQ(shiftOf(bytes), 0);
+        EXPECT_NEAR(static_cast<double>(bytes.size()), static_cast<double>(encoded(near).size()), 8);
+        EXPECT_EQ(decodedFine(bytes, far).value().view().toVector(), far.samples);
+    }
+}
+
+TEST(HeightCodec, BlocksThatExceedSixteenBitsAreStoredWide) {
+    const Square wide = wideGround();
+    const Bytes bytes = encodedFine(wide);
+    EXPECT_EQ(storageOf(bytes), 2);
+    EXPECT_EQ(bytes.size(), 1 + 4 * missingSamples(wide));
+    const Steps read = decodedFine(bytes, wide).value();
+    EXPECT_EQ(read.view().toVector(), wide.samples);
+    EXPECT_EQ(read.bytes(), 4 * wide.samples.size());
+}
+
+// A part that is coarse costs hardly more than without the fine part: neither 16 bits nor the bits of its noise.
+TEST(HeightCodec, BlocksOfWhichAPartIsFineAreSplit) {
+    const Square whole = pieceOf(europeAndAfrica(), 0, 0, 65, 16);
+    const auto coarseBytes = static_cast<double>(encoded(whole).size());
+    for (const int corner : {2, 9, 20}) {
+        const Square mixed = mixedGround(corner);
+        const Bytes bytes = encodedFine(mixed);
+        EXPECT_EQ(storageOf(bytes), 3) << corner;
+        EXPECT_EQ(shiftOf(bytes), fractions);
+        EXPECT_LE(static_cast<double>(bytes.size()), coarseBytes + 60 + 1.2 * corner * corner) << corner;
+        const auto read = decodedFine(bytes, mixed);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->view().toVector(), mixed.samples) << corner;
+        for (std::size_t length = 1; length < bytes.size(); length += 7) {
+            const Bytes cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
+            EXPECT_FALSE(decodedFine(cut, mixed)) << length;
+        }
+        Bytes longer = bytes;
+        longer.push_back(std::byte{0});
+        EXPECT_FALSE(decodedFine(longer, mixed));
+        EXPECT_FALSE(decodedFine(bytes, mixed, fractions + 1)) << "the shift must be that of the file";
+    }
+}
+
+TEST(HeightCodec, HostileSplitsAreReadWithinTheLimitsOrRefused) {
+    const Square mixed = mixedGround(9);
+    const Bytes good = encodedFine(mixed);
+    ASSERT_EQ(storageOf(good), 3);
+    std::mt19937 random(9);
+    for (int i = 0; i < 3000; ++i) {
+        Bytes bytes = good;
+        const std::size_t at = i % 2 == 0 ? random() % 12 : random() % bytes.size();
+        bytes[at] = static_cast<std::byte>(random());
+        const auto read = decodedFine(bytes, mixed);
+        if (!read) continue;
+        const auto [low, high] = lowestAndHighest(*read);
+        ASSERT_GE(low, lowestStepOf(fractions));
+        ASSERT_LE(high, highestStepOf(fractions));
+    }
+}
+
+TEST(HeightCodec, GridsWithFractionsComeBack) {
+    for (const Square& grid : {wideGround(), mixedGround(9), scaled(squareOf(33, smoothStep), 64),
+                               scaled(squareOf(33, smoothStep), 1, 2'000'000)}) {
+        Bytes bytes;
+        encodeGrid(grid.samples, grid.side, fractions, bytes);
+        const auto read = decodeGrid(bytes, grid.side, fractions);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read->view().toVector(), grid.samples);
+        for (const std::size_t length : {std::size_t{0}, std::size_t{15}, bytes.size() - 1})
+            EXPECT_FALSE(decodeGrid(std::span(bytes).first(length), grid.side, fractions)) << length;
+    }
+}
+
+std::string errorOfFine(Bytes bytes, const Square& fine, int first, int fractionBits = fractions) {
+    bytes[0] = static_cast<std::byte>(first);
+    const auto read = decodedFine(bytes, fine, fractionBits);
+    return read ? "none" : read.error().message;
+}
+
+TEST(HeightCodec, HostileShiftsAndStoragesAreRefused) {
+    const Square ground = scaled(squareOf(17, smoothStep), 8, 8 * 3);
+    const Bytes bytes = encodedFine(ground);
+    ASSERT_EQ(shiftOf(bytes), 3);
+    EXPECT_EQ(errorOfFine(bytes, ground, 1 | 3 << 3), "none");
+    EXPECT_THAT(errorOfFine(bytes, ground, 1 | 7 << 3), HasSubstr("shift 7; expected [0, 6]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 1 | 31 << 3), HasSubstr("shift 31; expected [0, 6]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 1 | 4 << 3),
+                HasSubstr("not all heights of its parent are multiples"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 4), HasSubstr("unknown storage 4; expected [0, 3]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 3), HasSubstr("shift 0; expected [6, 6]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 3 | 6 << 3), HasSubstr("bytes of high bits"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 2 | 1 << 3), HasSubstr("shift 1; expected [0, 0]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 2), HasSubstr("bytes of plain samples"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 2, 0), HasSubstr("unknown storage 2; expected [0, 1]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 1 | 3 << 3, 0), HasSubstr("shift 3; expected [0, 0]"));
+    const Square wide = wideGround();
+    EXPECT_THAT(errorOfFine(encodedFine(wide), wide, 1), HasSubstr("exceed 16 bits"));
+}
+
+TEST(HeightCodec, StepsBeyondTheLimitsAreRefused) {
+    Square wide = wideGround();
+    Bytes bytes = encodedFine(wide);
+    for (const std::int32_t step :
+         {farthestStep, farthestStep + 1, -farthestStep - 1, std::numeric_limits<std::int32_t>::max()}) {
+        Bytes changed = bytes;
+        for (std::size_t i = 0; i < 4; ++i)
+            changed[1 + i] = static_cast<std::byte>(static_cast<std::uint32_t>(step) >> (8 * i));
+        EXPECT_EQ(decodedFine(changed, wide).has_value(), step == farthestStep) << step;
+    }
+    // A plain block near the limit, whose samples reach beyond it.
+    const Square edge = squareOf(3, [](int, int) { return 0; });
+    const Square high = scaled(edge, 1, farthestStep);
+    bytes.clear();
+    encodeRefinement(high.samples, 1, minCompressionLevel, fractions, bytes);
+    EXPECT_TRUE(decodedFine(bytes, high));
+    bytes[1] = std::byte{1};
+    EXPECT_THAT(decodedFine(bytes, high).error().message, HasSubstr("out of the range of steps"));
+    Bytes corners;
+    encodeGrid(wide.samples, wide.side, fractions, corners);
+    corners[3] = std::byte{0x40};
+    EXPECT_THAT(decodeGrid(corners, wide.side, fractions).error().message, HasSubstr("out of the range"));
+}
+
+using Residuals = std::vector<std::int16_t>;
+
 TEST(ResidualCoder, EveryWidthCodesEveryResidual) {
-    Samples residuals = {lowest, highestStep, 0, 1, -1};
+    Residuals residuals = {-32768, 32767, 0, 1, -1};
     for (int r = -300; r <= 300; ++r) residuals.push_back(static_cast<std::int16_t>(r));
     for (int r = lowest; r <= highestStep; r += 97) residuals.push_back(static_cast<std::int16_t>(r));
     for (int width = 0; width < residualWidthCount; ++width) {
@@ -329,7 +513,7 @@ TEST(ResidualCoder, EveryWidthCodesEveryResidual) {
         Bytes bytes;
         encoder.finish(bytes);
         ResidualDecoder decoder(bytes);
-        Samples read(residuals.size());
+        Residuals read(residuals.size());
         decoder.readRow(widths, read);
         ASSERT_FALSE(decoder.failed());
         EXPECT_TRUE(decoder.ended());
@@ -340,7 +524,7 @@ TEST(ResidualCoder, EveryWidthCodesEveryResidual) {
 TEST(ResidualCoder, CostIsWhatTheBytesTake) {
     std::mt19937 random(3);
     for (const int width : {10, residualWidthOfOne, residualWidthOfOne + 12, residualWidthCount - 10}) {
-        Samples residuals;
+        Residuals residuals;
         std::int64_t cost256 = 0;
         for (int i = 0; i < 20000; ++i) {
             const int magnitude = 1 << std::max(0, (width - residualWidthOfOne) / 4);

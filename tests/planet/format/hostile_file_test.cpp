@@ -45,12 +45,12 @@ struct HostileFile {
         bytes.resize(bytes.size() + checksumBytes);
         return at;
     }
-    void addRoots(const ChunkEntry& entry, std::int16_t step = 0) {
-        const std::vector<std::int16_t> flat(static_cast<std::size_t>(chunkVertexCount(info.shape)), step);
+    void addRoots(const ChunkEntry& entry, std::int32_t step = 0) {
+        const std::vector<std::int32_t> flat(static_cast<std::size_t>(chunkVertexCount(info.shape)), step);
         for (BlockLocation& root : info.roots) {
             Bytes content;
             putIndex(content, {&entry, 1}, bytes.size());
-            encodeGrid(flat, chunkSize(info.shape), content);
+            encodeGrid(flat, chunkSize(info.shape), info.shape.fractionBits, content);
             root = add(content);
         }
     }
@@ -160,7 +160,7 @@ TEST(HostileFile, ChildrenBelowTheDeepestLevelAreRefused) {
     const auto chunks = opened(file.sealed());
     ASSERT_TRUE(chunks) << chunks.error().message;
     const ChunkId root{Face::NegZ, 0, 0, 0};  // the last one, whose key seals the block that all share
-    const std::vector<std::int16_t> flat(static_cast<std::size_t>(chunkVertexCount(file.info.shape)));
+    const std::vector<std::int32_t> flat(static_cast<std::size_t>(chunkVertexCount(file.info.shape)));
     const auto children = chunks->readChildren(root, block, flat);
     ASSERT_FALSE(children);
     EXPECT_THAT(children.error().message, HasSubstr("children below the deepest level"));

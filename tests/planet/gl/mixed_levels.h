@@ -100,11 +100,11 @@ public:
     }
 
     // Moves one vertex of a chunk, as drawn and as the CPU knows it.
-    void moveVertex(NodeIndex index, int column, int row, std::int16_t steps) {
+    void moveVertex(NodeIndex index, int column, int row, std::int32_t steps) {
         ChunkNode& node = tree_.nodes[index];
-        std::vector<std::int16_t> heights = *node.heights;
+        std::vector<std::int32_t> heights = node.heights->view().toVector();
         heights[static_cast<std::size_t>(row * chunkSize(tree_.shape) + column)] += steps;
-        node.heights = std::make_shared<const std::vector<std::int16_t>>(heights);
+        node.heights = std::make_shared<const Steps>(std::span<const std::int32_t>(heights));
         renderer_.upload(node.slot, heights);
     }
 

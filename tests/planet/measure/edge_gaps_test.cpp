@@ -172,9 +172,9 @@ TEST_F(EdgeGaps, AMovedVertexIsAGapOfItsHeight) {
         const int column = edge == Edge::West ? 0 : edge == Edge::East ? 16 : 8;
         const int row = edge == Edge::South ? 0 : edge == Edge::North ? 16 : 8;
         const SharedHeights whole = tree_.nodes[finer.node].heights;
-        std::vector<std::int16_t> moved = *whole;
+        std::vector<std::int32_t> moved = whole->view().toVector();
         moved[static_cast<std::size_t>(17 * row + column)] -= 400;
-        tree_.nodes[finer.node].heights = std::make_shared<const std::vector<std::int16_t>>(moved);
+        tree_.nodes[finer.node].heights = std::make_shared<const Steps>(std::span<const std::int32_t>(moved));
         const auto gaps = edgeGaps({tree_.shape, items, heightsIn(tree_), true}, pairs, view);
         EXPECT_NEAR(gaps[0].gapM, 100, 1e-6);
         EXPECT_NEAR(gaps[0].radialM, 100, 1e-6);

@@ -199,7 +199,7 @@ TEST(PopMeter, AStitchedEdgeThatIsCutAgainIsSeenBetweenItsVertices) {
     item.id = {Face::PosX, 9, 200, 300};
     std::vector<std::int16_t> steps(17 * 17, 0);
     steps[17 + 3] = 30'000;
-    const auto heights = std::make_shared<const std::vector<std::int16_t>>(steps);
+    const auto heights = std::make_shared<const Steps>(steps);
     DrawItem gathered = item;
     gathered.edgeMorph[static_cast<std::size_t>(Edge::South)] = 1;
     View view = fromBeside(mountain);

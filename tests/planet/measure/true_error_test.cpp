@@ -19,7 +19,7 @@ namespace planet {
 namespace {
 
 LoadChildren pyramidLoader() {
-    return [](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+    return [](const ChunkId& parent, BlockLocation location, StepsView heights) {
         return fakePyramid().load(parent, location, heights);
     };
 }
@@ -167,9 +167,9 @@ TEST(TrueError, findsAMovedVertexOnItsChunkAndItsSize) {
     constexpr int column = 6;
     constexpr int row = 9;
     constexpr int raisedSteps = 12000;
-    auto heights = chunk.heights;
-    heights[row * 17 + column] = static_cast<std::int16_t>(heights[row * 17 + column] + raisedSteps);
-    snapshot.chunks[item].heights = std::make_shared<const std::vector<std::int16_t>>(heights);
+    std::vector<std::int32_t> heights = chunk.heights.view().toVector();
+    heights[row * 17 + column] += raisedSteps;
+    snapshot.chunks[item].heights = std::make_shared<const Steps>(std::span<const std::int32_t>(heights));
 
     const TrueErrorReport after = measured(snapshot);
     const double raisedM = raisedSteps * snapshot.shape.quantumM;
@@ -340,7 +340,7 @@ TEST(TrueError, countsExaggerationIn) {
 }
 
 TEST(TrueError, saysWhatCouldNotBeRead) {
-    FinestHeights heights([](const ChunkId& parent, BlockLocation, std::span<const std::int16_t>) {
+    FinestHeights heights([](const ChunkId& parent, BlockLocation, StepsView) {
         return Result<SiblingBlock>(
             badInput("a.chk: the block of chunk " + toString(parent) + " is damaged"));
     });
@@ -360,7 +360,7 @@ TEST(TrueError, canBeCancelled) {
 
 HeldChunk heldRoot(Face face) {
     const ChunkData& root = fakePyramid().at({face, 0, 0, 0});
-    return {root.id, std::make_shared<const std::vector<std::int16_t>>(root.heights), root.children};
+    return {root.id, std::make_shared<const Steps>(root.heights), root.children};
 }
 
 TEST(FinestHeights, areThoseOfEveryLeafInTheirOrder) {
@@ -394,11 +394,10 @@ TEST(FinestHeights, keepNoMoreThanTheyMay) {
 
 TEST(FinestHeights, ofResidentLeavesNeedNoReading) {
     std::atomic<int> loads = 0;
-    FinestHeights heights(
-        [&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) {
-            ++loads;
-            return fakePyramid().load(parent, location, parentHeights);
-        });
+    FinestHeights heights([&](const ChunkId& parent, BlockLocation location, StepsView parentHeights) {
+        ++loads;
+        return fakePyramid().load(parent, location, parentHeights);
+    });
     LodSettings settings = suddenLod();
     settings.tauPx = 50;
     const auto whole = measureTrueError(drawnFrom(wholeTree(), levelView(), settings), heights);

@@ -22,7 +22,7 @@ PagingRequest rootRequest(Face face, double priority = 1) {
     request.parent = root.id;
     request.priority = priority;
     request.location = root.children;
-    request.parentHeights = std::make_shared<const std::vector<std::int16_t>>(root.heights);
+    request.parentHeights = std::make_shared<const Steps>(root.heights);
     return request;
 }
 
@@ -35,8 +35,7 @@ std::chrono::steady_clock::time_point muchLater() {
     return std::chrono::steady_clock::now() + 60s;
 }
 
-Result<SiblingBlock> loadFake(const ChunkId& parent, BlockLocation location,
-                              std::span<const std::int16_t> heights) {
+Result<SiblingBlock> loadFake(const ChunkId& parent, BlockLocation location, StepsView heights) {
     return fakePyramid().load(parent, location, heights);
 }
 
@@ -58,7 +57,7 @@ TEST(Pager, LoadsWhatIsAskedFor) {
 
 TEST(Pager, OneLoaderTakesTheMostUrgentFirst) {
     Gate gate;
-    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, StepsView heights) {
                     gate.pass();
                     return loadFake(parent, location, heights);
                 }},
@@ -83,7 +82,7 @@ TEST(Pager, OneLoaderTakesTheMostUrgentFirst) {
 
 TEST(Pager, SeveralLoadersReadAtOnce) {
     Gate gate;
-    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, StepsView heights) {
                     gate.pass();
                     return loadFake(parent, location, heights);
                 }},
@@ -111,7 +110,7 @@ TEST(Pager, WaitingForNothingReturnsAtOnce) {
 }
 
 TEST(Pager, ALoaderThatThrowsIsAnError) {
-    Pager pager({[](const ChunkId&, BlockLocation, std::span<const std::int16_t>) -> Result<SiblingBlock> {
+    Pager pager({[](const ChunkId&, BlockLocation, StepsView) -> Result<SiblingBlock> {
                     throw std::runtime_error("the disk is gone");
                 }},
                 1);
@@ -126,12 +125,11 @@ TEST(Pager, ALoaderThatThrowsIsAnError) {
 TEST(Pager, EndsWithWorkLeftUndone) {
     std::atomic<int> loads = 0;
     for (int round = 0; round < 200; ++round) {
-        Pager pager(
-            {[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
-                ++loads;
-                return loadFake(parent, location, heights);
-            }},
-            1 + round % 4);
+        Pager pager({[&](const ChunkId& parent, BlockLocation location, StepsView heights) {
+                        ++loads;
+                        return loadFake(parent, location, heights);
+                    }},
+                    1 + round % 4);
         for (const Face face : allFaces) {
             if (round % 3 != 0) submit(pager, rootRequest(face));
         }
@@ -160,7 +158,7 @@ TEST(Pager, ManyRequestsFromManyRoundsAllFinishOnce) {
 
 // A loader that waits at a gate and then loads.
 LoadChildren through(Gate& gate) {
-    return [&gate](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+    return [&gate](const ChunkId& parent, BlockLocation location, StepsView heights) {
         gate.pass();
         return loadFake(parent, location, heights);
     };
@@ -195,7 +193,7 @@ TEST(Pager, LoadersSentHomeTakeNothingMore) {
     Gate gate;
     std::atomic<int> reading = 0;
     std::atomic<int> most = 0;
-    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, StepsView heights) {
                     const int now = ++reading;
                     most = std::max<int>(most, now);
                     gate.pass();
@@ -272,7 +270,7 @@ TEST(Pager, SaysWhatIsBeingRead) {
 
 TEST(Pager, ABadDiskFailsReadsAndSaysThatItDoes) {
     std::atomic<int> reads = 0;
-    Pager pager({[&](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> heights) {
+    Pager pager({[&](const ChunkId& parent, BlockLocation location, StepsView heights) {
                     ++reads;
                     return loadFake(parent, location, heights);
                 }},

@@ -128,7 +128,7 @@ TEST(PagingQueue, ARequestKeepsWhatItCarries) {
     request.location = {77, 5};
     request.askedAtS = 3.5;
     request.ticket = 4;
-    request.parentHeights = std::make_shared<const std::vector<std::int16_t>>(9);
+    request.parentHeights = std::make_shared<const Steps>(std::vector<std::int16_t>(9));
     queue.submit(request);
     queue.submit(makeRequest(1, PagingType::PageIn, 8));  // says only that it is still wanted
     const auto popped = queue.popBest(PagingType::PageIn);

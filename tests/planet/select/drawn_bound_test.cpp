@@ -24,10 +24,9 @@ LodSettings settingsOf(ErrorMetric metric, bool morph) {
 }
 
 TrueErrorReport measuredIn(const ChunkTree& tree, std::span<const DrawItem> items, const View& view) {
-    FinestHeights heights(
-        [](const ChunkId& parent, BlockLocation location, std::span<const std::int16_t> parentHeights) {
-            return fakePyramid().load(parent, location, parentHeights);
-        });
+    FinestHeights heights([](const ChunkId& parent, BlockLocation location, StepsView parentHeights) {
+        return fakePyramid().load(parent, location, parentHeights);
+    });
     return measureTrueError(snapshotOf(tree, items, view, false), heights).value();
 }
 

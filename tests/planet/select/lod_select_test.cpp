@@ -739,7 +739,7 @@ ChunkTree deepTree(const std::vector<ChunkId>& deepest) {
         data.id = id;
         data.deltaCM = static_cast<float>(std::ldexp(1e5, -id.level));
         if (id.level < deepestLevelOf(shape)) data.children = {keyOf(id) + 1, 100};
-        data.heights.assign(static_cast<std::size_t>(chunkVertexCount(shape)), 0);
+        data.heights = std::vector<std::int16_t>(static_cast<std::size_t>(chunkVertexCount(shape)));
         return data;
     };
     std::array<ChunkData, faceCount> roots;

@@ -13,7 +13,7 @@ namespace {
 struct StoredVertex {
     Face face;
     std::int32_t gridU, gridV;
-    std::int16_t step;
+    std::int32_t step;
 };
 
 PlanetShape finestEarth() {
@@ -61,8 +61,7 @@ protected:
     StoredVertex randomVertex() {
         std::uniform_int_distribution<int> face(0, faceCount - 1);
         std::uniform_int_distribution<int> step(-11000, 9000);
-        return {static_cast<Face>(face(random_)), randomGridLine(100), randomGridLine(100),
-                static_cast<std::int16_t>(step(random_))};
+        return {static_cast<Face>(face(random_)), randomGridLine(100), randomGridLine(100), step(random_)};
     }
     std::mt19937 random_{7};
 };
@@ -95,6 +94,19 @@ TEST_F(VertexPosition, FineQuantumAndABaseHeightLoseNothing) {
     shape.baseHeightM = 1234.567;
     for (int i = 0; i < 5000; ++i) {
         const StoredVertex vertex = randomVertex();
+        const glm::dvec3 eyeM = reference(shape, vertex) + randomOffset(900);
+        EXPECT_LT(errorM(shape, eyeM, vertex), 1e-3);
+    }
+}
+
+TEST_F(VertexPosition, FractionsOfTheQuantumLoseNothing) {
+    PlanetShape shape = finestEarth();
+    shape.fractionBits = 8;
+    shape.quantumM = 1.0 / 256;
+    std::uniform_int_distribution<std::int32_t> step(-11000 * 256, 9000 * 256);
+    for (int i = 0; i < 5000; ++i) {
+        StoredVertex vertex = randomVertex();
+        vertex.step = step(random_);
         const glm::dvec3 eyeM = reference(shape, vertex) + randomOffset(900);
         EXPECT_LT(errorM(shape, eyeM, vertex), 1e-3);
     }

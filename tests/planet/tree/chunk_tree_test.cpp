@@ -85,6 +85,12 @@ TEST(ChunkTree, RemovedChildrenLeaveRoomThatIsTakenAgain) {
     EXPECT_EQ(findNode(tree, {Face::NegZ, 2, 3, 3}), first + 3);
 }
 
+void setHeight(ChunkData& chunk, std::size_t at, std::int32_t step) {
+    std::vector<std::int32_t> steps = chunk.heights.view().toVector();
+    steps[at] = step;
+    chunk.heights = Steps(std::span<const std::int32_t>(steps));
+}
+
 struct TreeDamage {
     const char* message;
     void (*apply)(ChunkData&);
@@ -95,7 +101,8 @@ const TreeDamage damages[] = {
      [](ChunkData& chunk) {
          chunk.id = {Face::NegY, 1, 0, 0};
      }},
-    {"heights; expected 289", [](ChunkData& chunk) { chunk.heights.pop_back(); }},
+    {"heights; expected 289",
+     [](ChunkData& chunk) { chunk.heights = Steps(chunk.heights.view().narrow().subspan(1)); }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = -1; }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = std::numeric_limits<float>::quiet_NaN(); }},
     {"delta_c", [](ChunkData& chunk) { chunk.deltaCM = std::numeric_limits<float>::infinity(); }},
@@ -105,8 +112,8 @@ const TreeDamage damages[] = {
     {"are out of range; expected [", [](ChunkData& chunk) { std::swap(chunk.minStep, chunk.maxStep); }},
     {"are out of range; expected [", [](ChunkData& chunk) { chunk.maxStep = 32767; }},
     {"are out of range; expected [", [](ChunkData& chunk) { chunk.minStep = -32768; }},
-    {"expected its extremes", [](ChunkData& chunk) { chunk.heights[5] = 32767; }},
-    {"expected its extremes", [](ChunkData& chunk) { chunk.heights[6] = -32768; }},
+    {"expected its extremes", [](ChunkData& chunk) { setHeight(chunk, 5, 32767); }},
+    {"expected its extremes", [](ChunkData& chunk) { setHeight(chunk, 6, -32768); }},
 };
 
 TEST(ChunkTree, ChildrenThatWouldBreakItsPromisesAreRefused) {

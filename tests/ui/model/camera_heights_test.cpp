@@ -76,7 +76,7 @@ TEST(CameraHeights, aPlainOfACoarsePlanetIsNoSeaBed) {
     source.shape.baseHeightM = 0;
     source.minStep = source.maxStep = 500;
     for (planet::ChunkData& root : source.roots) {
-        std::fill(root.heights.begin(), root.heights.end(), std::int16_t{500});
+        root.heights = std::vector<std::int16_t>(root.heights.size(), 500);
         root.minStep = root.maxStep = 500;
     }
     const auto planet = planet::Planet::open(std::move(source), paging).value();

@@ -21,7 +21,7 @@ protected:
         const planet::View view = planet::viewFromPose({.altitudeM = planet_->tree().shape.radiusM},
                                                        planet_->tree().shape.radiusM, 1.05, 640, 480);
         planet_->settle(
-            view, {}, [](std::uint32_t, std::span<const std::int16_t>) {}, planet::timeoutS);
+            view, {}, [](std::uint32_t, planet::StepsView) {}, planet::timeoutS);
         view_.planet = planet_.get();
         view_.camera.lodView = view;
     }

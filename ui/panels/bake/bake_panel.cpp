@@ -29,6 +29,7 @@ bool sameFile(const BakeRequest& a, const BakeRequest& b) {
     return a.source == b.source && a.settings.faceSize == b.settings.faceSize &&
            a.settings.chunkSize == b.settings.chunkSize && a.settings.radiusM == b.settings.radiusM &&
            a.settings.quantumM == b.settings.quantumM &&
+           a.settings.finestQuantumM == b.settings.finestQuantumM &&
            a.settings.compressionLevel == b.settings.compressionLevel && a.colour == b.colour &&
            (a.colour.empty() || a.settings.colour == b.settings.colour);
 }
@@ -86,8 +87,11 @@ void addBaked(const EditorView& view, Parameters& rows) {
                     "Vertices along a side of a chunk, the same at every level."});
     rows.push_back({"Radius", fmt::format("{:.1f} km", baked.radiusM / 1000), false,
                     "Radius of the sphere that heights are measured from."});
-    rows.push_back({"Quantum", fmt::format("{:g} m", baked.quantumM.value_or(0)), false,
-                    "Height of one of the 65536 quantisation steps of the file."});
+    const std::string finest =
+        baked.finestQuantumM ? fmt::format(", finest {:g} m", *baked.finestQuantumM) : "";
+    rows.push_back({"Quantum", fmt::format("{:g} m{}", baked.quantumM.value_or(0), finest), false,
+                    "Height of one of the 65536 quantisation steps of the file. Finest: where the source is "
+                    "finer, heights have steps of a power-of-two fraction, down to this one."});
     rows.push_back(
         {"Compression",
          view.bake.compressionKnown ? fmt::format("level {}", baked.compressionLevel) : "unknown", false,
@@ -196,14 +200,19 @@ bool radiusControl(const BakeRequest& current, BakeRequest& request) {
 bool quantumControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
         "Height in metres of one of the file's 65536 quantisation steps. Automatic: the source's own step, "
-        "or for floating-point sources the smallest step that covers the range. Larger: a smaller file, but "
+        "or for floating-point sources the smallest step that covers the range, with finer steps where a "
+        "part of "
+        "the source needs them. Set: the step of the whole file. Larger: a smaller file, but "
         "terraces on flat ground. Too small: the heights do not fit, and the bake stops with an error.";
     std::optional<double>& quantum = request.settings.quantumM;
     bakeControl("Quantum", quantum != current.settings.quantumM, explanation);
     bool automatic = !quantum;
     bool changed = ImGui::Checkbox("automatic", &automatic);
     tooltip(explanation);
-    if (changed) quantum = automatic ? std::nullopt : std::optional(current.settings.quantumM.value_or(1));
+    if (changed) {
+        quantum = automatic ? std::nullopt : std::optional(current.settings.quantumM.value_or(1));
+        request.settings.finestQuantumM.reset();
+    }
     if (!quantum) return changed;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);

@@ -141,6 +141,7 @@ bool worldControl(const EditorView& view, SourceEdit& edit, BakeRequest& request
         request.settings.radiusM = world.request.settings.radiusM;
         request.settings.faceSize = world.request.settings.faceSize;
         request.settings.quantumM.reset();
+        request.settings.finestQuantumM.reset();
         request.colour = world.request.colour;
         request.settings.colour = {};
         setSource(request.source, edit);
@@ -221,7 +222,10 @@ bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& reque
     bool changed = worldControl(view, edit, request);
     const bool lit = request.source != view.bake.current.source;
     bool edited = kindControl(lit, edit);
-    if (edited) request.settings.quantumM.reset();  // the new source has its own height range
+    if (edited) {  // the new source has its own height range
+        request.settings.quantumM.reset();
+        request.settings.finestQuantumM.reset();
+    }
     if (edit.kind == 0) {
         edited |= fileControl(edit);
     } else {

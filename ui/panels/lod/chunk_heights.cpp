@@ -28,16 +28,16 @@ struct Relief {
 
 Relief reliefOf(const planet::ChunkTree& tree, const planet::ChunkNode& node, int mostCells) {
     const int size = planet::chunkSize(tree.shape);
-    const auto [low, high] = std::minmax_element(node.heights->begin(), node.heights->end());
-    const float range = std::max(1.0f, static_cast<float>(*high - *low));
+    const auto [low, high] = planet::lowestAndHighest(*node.heights);
+    const float range = std::max(1.0f, static_cast<float>(high - low));
     Relief relief;
     relief.side = std::min(size, std::max(mostCells, 2));
     for (int row = 0; row < relief.side; ++row) {
         for (int column = 0; column < relief.side; ++column) {
             const int i = column * (size - 1) / (relief.side - 1);
             const int j = row * (size - 1) / (relief.side - 1);
-            const std::int16_t step = (*node.heights)[static_cast<std::size_t>(j * size + i)];
-            relief.shares.push_back(static_cast<float>(step - *low) / range);
+            const std::int32_t step = (*node.heights)[static_cast<std::size_t>(j * size + i)];
+            relief.shares.push_back(static_cast<float>(step - low) / range);
         }
     }
     return relief;

@@ -242,7 +242,7 @@ TEST_F(Seams, WhollyMorphedChildrenLookLikeTheirParents) {
 TEST_F(Seams, AWholeMorphMovesSiblingsByTheirParentsDeltaG) {
     const PlanetShape& shape = planet_.shape();
     const ChunkId parent{Face::NegX, 2, 1, 3};
-    std::vector<std::int16_t> refined(33 * 33);
+    std::vector<std::int32_t> refined(33 * 33);
     std::vector<DrawItem> items(4);
     for (int quadrant = 0; quadrant < quadrantCount; ++quadrant) {
         DrawItem& item = items[static_cast<std::size_t>(quadrant)];

@@ -20,9 +20,9 @@ protected:
 
     // A chunk of random heights that holds a point of a face.
     DrawItem uploadChunk(std::uint32_t slot, const FacePoint& point, int level) {
-        std::uniform_int_distribution<int> step(-8000, 8000);
+        std::uniform_int_distribution<std::int32_t> step(-mostStep_, mostStep_);
         heights_.resize(static_cast<std::size_t>(chunkVertexCount(shape_)));
-        for (std::int16_t& height : heights_) height = static_cast<std::int16_t>(step(random_));
+        for (std::int32_t& height : heights_) height = step(random_);
         renderer_.upload(slot, heights_);
         DrawItem item;
         item.id = chunkAt(point, level);
@@ -30,7 +30,7 @@ protected:
         return item;
     }
 
-    glm::dvec3 reference(const ChunkId& id, int vertex, std::int16_t step) const {
+    glm::dvec3 reference(const ChunkId& id, int vertex, std::int32_t step) const {
         const int size = chunkSize(shape_);
         const FaceSquare square = faceSquareOf(id);
         const double u = square.u + square.side * (vertex % size) / (size - 1);
@@ -77,7 +77,8 @@ protected:
     RenderTarget target_ = valueOf(RenderTarget::create(8, 8));
     PlanetShape shape_ = earthToTheCentimetre();
     ChunkRenderer renderer_ = valueOf(ChunkRenderer::create({shape_, 4, {}}));
-    std::vector<std::int16_t> heights_;
+    std::vector<std::int32_t> heights_;
+    std::int32_t mostStep_ = 8000;
     std::mt19937 random_{11};
     double worst_ = 0;
     double worstNearM_ = 0;
@@ -109,6 +110,32 @@ TEST_F(VertexShader, IsAsExactFromOrbitAndOnAPlanetOfOneLevel) {
                 const glm::dvec3 expected = reference(item.id, static_cast<int>(i), heights_[i]) - view.eyeM;
                 ASSERT_LT(glm::length(glm::dvec3(positions[i]) - expected), 4e-7 * glm::length(expected));
             }
+        }
+    }
+}
+
+TEST_F(VertexShader, DrawsFractionsOfTheQuantumAsExactly) {
+    shape_.fractionBits = 7;
+    shape_.quantumM = 1.0 / 128;
+    renderer_ = valueOf(ChunkRenderer::create({shape_, 4, {}}));
+    mostStep_ = 1'000'000;  // beyond 16 bits
+    for (const int level : {0, 5, 11, 17, deepestLevelOf(shape_)}) {
+        for (const Face face : allFaces) expectExact({face, 0.37, 0.71}, level);
+        EXPECT_LT(worstNearM_, 1e-3) << "level " << level;
+        EXPECT_LT(worst_, 4e-7) << "level " << level;
+        const DrawItem item = uploadChunk(0, {Face::NegY, 0.2, -0.7}, level);
+        const View view = viewFrom(shape_, -30, -80, 4000);
+        const auto positions = valueOf(renderer_.readVertexPositions(view, {&item, 1}, RenderSettings{}));
+        const VertexFrame frame = vertexFrame(shape_, view.eyeM);
+        const int size = chunkSize(shape_);
+        const std::int32_t spacing = fineCellsPerVertex(shape_, level);
+        for (int i = 0; i < size * size; ++i) {
+            const auto gridU = static_cast<std::int32_t>(item.id.x) * (size - 1) + i % size;
+            const auto gridV = static_cast<std::int32_t>(item.id.y) * (size - 1) + i / size;
+            const auto index = static_cast<std::size_t>(i);
+            const glm::vec3 mirrored =
+                vertexFromEyeM(frame, item.id.face, gridU * spacing, gridV * spacing, heights_[index]);
+            EXPECT_LT(glm::length(positions[index] - mirrored), 4e-7f * glm::length(mirrored));
         }
     }
 }

@@ -16,13 +16,13 @@ using planet::Face;
 // A tree whose first root has the heights of a function of (column, row).
 planet::ChunkTree treeWith(int (*height)(int column, int row)) {
     planet::ChunkTree tree = planet::residentTree(planet::fakePyramid(), 0);
-    auto heights = std::make_shared<std::vector<std::int16_t>>();
+    std::vector<std::int16_t> heights;
     for (int row = 0; row <= 16; ++row) {
         for (int column = 0; column <= 16; ++column) {
-            heights->push_back(static_cast<std::int16_t>(height(column, row)));
+            heights.push_back(static_cast<std::int16_t>(height(column, row)));
         }
     }
-    tree.nodes[0].heights = heights;
+    tree.nodes[0].heights = std::make_shared<const planet::Steps>(heights);
     return tree;
 }
 
