@@ -399,9 +399,9 @@ TEST(LodTraceDrops, fullRingDropsDrawnNodesAndCountsThem) {
     trace.close();
     const ReadTrace read = readFile(file);
     EXPECT_EQ(eventsOf<TraceDrawn>(read.events).size() + dropped, drawn);
-    const auto counts = eventsOf<TraceDropped>(read.events);
-    ASSERT_EQ(counts.size(), 1u);
-    EXPECT_EQ(counts[0].count, dropped);
+    std::uint64_t counted = 0;
+    for (const TraceDropped& lost : eventsOf<TraceDropped>(read.events)) counted += lost.count;
+    EXPECT_EQ(counted, dropped);
     TraceState state;
     std::vector<bool> complete;
     for (const TraceEvent& event : read.events)
