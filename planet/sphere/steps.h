@@ -11,17 +11,20 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
-#include <ranges>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace planet {
 
-// A range of T in memory, const or not.
+// A range of T in memory, const or not. It asks for members only: the concepts of std::ranges would ask whether views of
+// steps are made of steps.
 template <class Range, class T>
-concept RangeInMemory =
-    std::ranges::contiguous_range<Range> && std::same_as<std::ranges::range_value_t<Range>, T>;
+concept RangeInMemory = requires(const Range& range) {
+    requires std::same_as<std::remove_cvref_t<decltype(*range.data())>, T>;
+    { range.size() } -> std::convertible_to<std::size_t>;
+};
 
 // A non-owning view of steps. A view of 16-bit numbers n has the steps base + scale * n.
 class StepsView {
@@ -33,7 +36,7 @@ public:
     StepsView(const Range& steps)  // implicit, as of std::span
         : StepsView(std::span<const std::int16_t>(steps), 0, 1) {}
     template <RangeInMemory<std::int32_t> Range>
-    StepsView(const Range& steps) : wide_(std::ranges::data(steps)), size_(std::ranges::size(steps)) {}
+    StepsView(const Range& steps) : wide_(steps.data()), size_(steps.size()) {}
     StepsView(std::span<const std::int16_t> narrow, std::int32_t base, std::int32_t scale)
         : narrow_(narrow.data()), size_(narrow.size()), base_(base), scale_(scale) {}
 

@@ -339,9 +339,9 @@ Square scaled(Square square, std::int32_t factor, std::int32_t offset = 0) {
     return square;
 }
 
-// Rough ground of a planet of metres in 1/64 of a metre, which exceeds 16 bits.
+// Rough ground in steps of a millimetre, which exceeds 16 bits even in 1/64 of that.
 Square wideGround() {
-    Square square = scaled(pieceOf(europeAndAfrica(), 0, 0, 65, 16), 64);
+    Square square = scaled(pieceOf(europeAndAfrica(), 0, 0, 65, 16), 1000);
     for (std::size_t i = 0; i < square.samples.size(); ++i)
         square.samples[i] += static_cast<std::int32_t>(1 + i * i % 63);
     return square;
