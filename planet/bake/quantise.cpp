@@ -98,9 +98,12 @@ struct Range {
 Range roundTo(const PlanetShape& shape, const HeightSource& source, std::span<const float> heightsM,
               int shift, std::span<std::int32_t> steps) {
     const double perMetre = 1 / std::ldexp(shape.quantumM, shift);
-    const double lowest = lowestStepOf(shape.fractionBits) / (1 << shift);
-    const double highest = highestStepOf(shape.fractionBits) / (1 << shift);
     const std::int32_t scale = 1 << shift;
+    // The outermost multiples that are within the limits.
+    const std::int32_t lowestMultiple = lowestStepOf(shape.fractionBits) / scale;
+    const std::int32_t highestMultiple = highestStepOf(shape.fractionBits) / scale;
+    const double lowest = lowestMultiple;
+    const double highest = highestMultiple;
     Range range;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const double height = std::clamp(static_cast<double>(heightsM[i]), source.minM, source.maxM);
@@ -109,7 +112,7 @@ Range roundTo(const PlanetShape& shape, const HeightSource& source, std::span<co
         const double step = std::clamp((height - shape.baseHeightM) * perMetre, lowest, highest);
         // The value is made positive first, so that truncation rounds to nearest. Unlike a function call,
         // this vectorises.
-        steps[i] = (static_cast<int>(step - lowest + 0.5) + static_cast<int>(lowest)) * scale;
+        steps[i] = (static_cast<int>(step - lowest + 0.5) + lowestMultiple) * scale;
     }
     return range;
 }
