@@ -9,6 +9,7 @@
 
 #include "app/base/report.h"
 #include "planet/trace/trace_report.h"
+#include "planet/trace/trace_what_if.h"
 
 namespace worldy {
 
@@ -22,6 +23,13 @@ struct TraceLimits {
     std::optional<int> dropped;        // events that the trace lost, >= 0
 };
 
+// What if: selections with other settings over the same frames.
+struct TraceWhatIfOptions {
+    std::vector<double> tausPx{};                     // > 0; empty, and no goal: nothing is selected again
+    planet::TraceSelectorSettings settings{};         // all but τ
+    std::optional<planet::TraceTauGoal> goal{};       // a τ is searched
+};
+
 struct TraceCommandOptions {
     std::filesystem::path file;
     ReportTo report;
@@ -29,6 +37,7 @@ struct TraceCommandOptions {
     double budgetMs = 1000.0 / 60;  // of a frame, > 0
     planet::TraceFaultLimits faults;
     TraceLimits limits;
+    TraceWhatIfOptions whatIf;
 };
 
 // Returns true if all limits hold. A trace that is damaged is an Error, after a report of what came before. One that is cut
