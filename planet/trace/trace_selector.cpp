@@ -203,27 +203,20 @@ bool TraceLevelCounter::covers(const TraceState& state, const Stamps& drawn, std
 
 void TraceLevelCounter::count(const TraceState& state, bool isContinued, TraceSelection& selection) {
     std::swap(drawn_, drawnBefore_);
-    std::swap(below_, belowBefore_);
+    std::swap(split_, splitBefore_);
     std::swap(list_, listBefore_);
-    list_.clear();
     ++stamp_;
-    for (Stamps* stamps : {&drawn_, &below_, &drawnBefore_, &belowBefore_})
+    for (Stamps* stamps : {&drawn_, &split_, &drawnBefore_, &splitBefore_})
         stamps->resize(state.nodes().size(), 0);
-    for (const TraceNodeIndex node : selection.drawn) {
-        drawn_[node] = stamp_;
-        TraceNodeIndex ancestor = state.nodes()[node].parent;
-        for (int step = 0; step < mostGenerations && ancestor != noTraceNode; ++step) {
-            if (!stampOnce(below_, ancestor, stamp_)) break;
-            list_.push_back(ancestor);
-            ancestor = state.nodes()[ancestor].parent;
-        }
-    }
+    for (const TraceNodeIndex node : selection.drawn) drawn_[node] = stamp_;
+    list_ = selection.split;
+    for (const TraceNodeIndex node : list_) split_[node] = stamp_;
     selection.splits = selection.merges = 0;
     if (!isContinued) return;
     for (const TraceNodeIndex node : list_)
-        selection.splits += belowBefore_[node] != stamp_ - 1 && covers(state, drawnBefore_, stamp_ - 1, node);
+        selection.splits += splitBefore_[node] != stamp_ - 1 && covers(state, drawnBefore_, stamp_ - 1, node);
     for (const TraceNodeIndex node : listBefore_)
-        selection.merges += below_[node] != stamp_ && covers(state, drawn_, stamp_, node);
+        selection.merges += split_[node] != stamp_ && covers(state, drawn_, stamp_, node);
 }
 
 // ---- the disk ----

@@ -117,8 +117,8 @@ struct TraceSelection {
     std::uint64_t limited = 0;             // drawn because of the budget
 };
 
-// Counts the changes of level between the frames of a view: a node that was drawn, or lies in one that was, and now has a
-// drawn descendant, was split; the reverse is a merge. One thread at a time.
+// Counts the changes of level between the frames of a view: a node that was drawn, or lies in one that was, and is now split
+// was split; the reverse is a merge. One thread at a time.
 class TraceLevelCounter {
 public:
     // Fills the changes of a selection. isContinued: the last one was that of the frame before.
@@ -128,8 +128,8 @@ private:
     using Stamps = std::vector<std::uint32_t>;
     bool covers(const TraceState& state, const Stamps& drawn, std::uint32_t stamp, TraceNodeIndex node) const;
 
-    Stamps drawn_, below_, drawnBefore_, belowBefore_;
-    std::vector<TraceNodeIndex> list_, listBefore_;  // nodes with a drawn descendant
+    Stamps drawn_, split_, drawnBefore_, splitBefore_;
+    std::vector<TraceNodeIndex> list_, listBefore_;  // split nodes
     std::uint32_t stamp_ = 1;
 };
 
