@@ -11,6 +11,8 @@
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
 #include "app/base/text.h"
+#include "app/cli/trace_compare_text.h"
+#include "app/cli/trace_what_if_text.h"
 
 namespace worldy {
 
@@ -255,21 +257,101 @@ Json traceJson(const TraceCommandOptions& options, const TraceReport& report) {
     return json;
 }
 
+namespace {
+
+// Returns a sentence for a limit of a count that does not hold.
+std::optional<std::string> brokenCount(const std::optional<int>& limit, std::uint64_t count,
+                                       const char* what) {
+    if (!limit || count <= static_cast<std::uint64_t>(*limit)) return std::nullopt;
+    return fmt::format("{} is {}; expected at most {}", what, count, *limit);
+}
+
+bool asksWhatIf(const TraceCommandOptions& options) {
+    return !options.whatIf.tausPx.empty() || options.whatIf.goal || options.limits.disagreeing;
+}
+
+Result<TraceWhatIfFound> whatIf(const TraceCommandOptions& options, planet::TraceFile& file,
+                                const std::function<bool()>& goOn) {
+    TraceWhatIfFound found;
+    std::vector<planet::TraceSelectorSettings> settings;
+    for (const double tauPx : options.whatIf.tausPx) {
+        settings.push_back(options.whatIf.settings);
+        settings.back().tauPx = tauPx;
+    }
+    Result<planet::TraceWhatIfReport> report = planet::whatIfOfTrace(file, settings, goOn);
+    if (!report) return tl::unexpected(report.error());
+    found.report = *std::move(report);
+    if (!options.whatIf.goal || found.report.isDamaged) return found;
+    found.goal = *options.whatIf.goal;
+    const auto tau = planet::suggestTraceTau(file, options.whatIf.settings, found.goal, goOn);
+    if (!tau) return tl::unexpected(tau.error());
+    found.suggestion = *tau;
+    return found;
+}
+
+// Prints the sentences; returns whether there are none.
+bool holdAll(const std::vector<std::string>& broken) {
+    for (const std::string& sentence : broken) printMessage("worldy: {}\n", sentence);
+    return broken.empty();
+}
+
+Result<bool> runTraceCompare(const TraceCommandOptions& options) {
+    Result<planet::TraceFile> a = planet::TraceFile::open(options.file);
+    if (!a) return tl::unexpected(a.error());
+    Result<planet::TraceFile> b = planet::TraceFile::open(options.other);
+    if (!b) return tl::unexpected(b.error());
+    const InterruptWatch watch;
+    const auto goOn = [&] { return !watch.interrupted(); };
+    const auto compared = planet::compareTraces(*a, *b, {.match = options.match}, goOn);
+    if (!compared) return tl::unexpected(compared.error());
+    const Result<TraceReport> report = planet::reportOfTrace(*b, options.budgetMs, options.faults, goOn);
+    if (!report) return tl::unexpected(report.error());
+    std::vector<std::string> broken = brokenLimits(options.limits, *report);
+    if (const auto sentence = brokenCount(options.limits.differing, compared->framesThatDiffer,
+                                          "the number of frames that draw other nodes"))
+        broken.push_back(*sentence);
+    const std::array files = {options.file.string(), options.other.string()};
+    if (!options.report.json) printTraceComparison(files, *compared, options.worst);
+    Json json = traceComparisonJson(files, *compared);
+    json["broken_limits"] = broken;
+    if (Result<void> written = writeReport(options.report, json); !written)
+        return tl::unexpected(std::move(written).error());
+    if (compared->isDamagedA) return planet::badInput(*compared->problemA);
+    if (compared->isDamagedB) return planet::badInput(*compared->problemB);
+    for (const auto& problem : {compared->problemA, compared->problemB})
+        if (problem) printMessage("worldy: {}\n", *problem);
+    return holdAll(broken);
+}
+
+}  // namespace
+
 Result<bool> runTrace(const TraceCommandOptions& options) {
+    if (!options.other.empty()) return runTraceCompare(options);
     Result<planet::TraceFile> file = planet::TraceFile::open(options.file);
     if (!file) return tl::unexpected(file.error());
     const InterruptWatch watch;
-    const Result<TraceReport> report =
-        planet::reportOfTrace(*file, options.budgetMs, options.faults, [&] { return !watch.interrupted(); });
+    const auto goOn = [&] { return !watch.interrupted(); };
+    const Result<TraceReport> report = planet::reportOfTrace(*file, options.budgetMs, options.faults, goOn);
     if (!report) return tl::unexpected(report.error());
+    std::vector<std::string> broken = brokenLimits(options.limits, *report);
+    Json json = traceJson(options, *report);
     if (!options.report.json) printTrace(options, *report);
-    if (Result<void> written = writeReport(options.report, traceJson(options, *report)); !written)
+    if (asksWhatIf(options)) {
+        const Result<TraceWhatIfFound> found = whatIf(options, *file, goOn);
+        if (!found) return tl::unexpected(found.error());
+        if (const auto sentence =
+                brokenCount(options.limits.disagreeing, found->report.framesThatDisagree,
+                            "the number of frames that contradict the engine's own numbers"))
+            broken.push_back(*sentence);
+        if (!options.report.json) printWhatIf(*found, options.worst);
+        json["what_if"] = whatIfJson(*found);
+        json["broken_limits"] = broken;
+    }
+    if (Result<void> written = writeReport(options.report, json); !written)
         return tl::unexpected(std::move(written).error());
     if (report->isDamaged) return planet::badInput(*report->problem);
     if (report->problem) printMessage("worldy: {}\n", *report->problem);
-    const std::vector<std::string> broken = brokenLimits(options.limits, *report);
-    for (const std::string& sentence : broken) printMessage("worldy: {}\n", sentence);
-    return broken.empty();
+    return holdAll(broken);
 }
 
 }  // namespace worldy

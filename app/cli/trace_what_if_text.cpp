@@ -50,7 +50,8 @@ void printTotals(const std::string& name, const char* mark, const TraceSelection
 }
 
 void printView(const planet::TraceWhatIfView& view) {
-    fmt::print("\nview {}: what if; * is on the Pareto front of the largest error and the most bytes\n", view.view);
+    fmt::print("\nview {}: what if; * is on the Pareto front of the largest error and the most bytes\n",
+               view.view);
     fmt::print("{:<16}{:>9}{:>9}{:>11}{:>11}{:>11}{:>11}{:>8}{:>8}{:>10}{:>10}{:>9}{:>9}{:>9}{:>9}\n",
                "selection", "drawn", "most", "triangles", "most", "bytes", "most", "splits", "merges",
                "error px", "most", "unknown", "waiting", "frames", "nodes");
@@ -63,8 +64,9 @@ void printView(const planet::TraceWhatIfView& view) {
     const bool isBound = std::ranges::any_of(
         view.rows, [](const TraceWhatIfRow& row) { return row.totals.unknownFrames > 0; });
     if (isBound)
-        fmt::print("Where nodes are unknown, the engine never described their children or errors: triangles and "
-                   "bytes can be larger.\n");
+        fmt::print(
+            "Where nodes are unknown, the engine never described their children or errors: triangles and "
+            "bytes can be larger.\n");
     fmt::print("frames, nodes: where other nodes are drawn than the engine drew.\n");
 }
 
@@ -105,9 +107,9 @@ void printSuggestion(const planet::TraceTauGoal& goal, const planet::TraceTauSug
     if (goal.bytes) add(fmt::format("{:g} MB", *goal.bytes / bytesOfMb));
     if (goal.triangles) add(fmt::format("{:g} triangles", *goal.triangles));
     if (goal.errorPx) add(fmt::format("{:g} px", *goal.errorPx));
-    fmt::print("\nsuggested tau for {}: {:.3g} px, with at most {:.2f} px, {:.2f} MB and {} triangles{}{}\n", limits,
-               found.tauPx, found.errorPx, static_cast<double>(found.bytes) / bytesOfMb, found.triangles,
-               found.isMet ? "" : "; no tau meets all limits",
+    fmt::print("\nsuggested tau for {}: {:.3g} px, with at most {:.2f} px, {:.2f} MB and {} triangles{}{}\n",
+               limits, found.tauPx, found.errorPx, static_cast<double>(found.bytes) / bytesOfMb,
+               found.triangles, found.isMet ? "" : "; no tau meets all limits",
                found.isBound ? "; a bound, because some nodes are unknown" : "");
 }
 
@@ -172,19 +174,20 @@ planet::Result<planet::TraceTauGoal> traceTauGoalFromText(const std::string& tex
         const std::string_view part = left.substr(0, left.find(','));
         left.remove_prefix(std::min(part.size() + 1, left.size()));
         const std::string_view name = part.substr(0, part.find('='));
-        const double value =
-            numberFromText(part.substr(std::min(name.size() + 1, part.size()))).value_or(0);
+        const double value = numberFromText(part.substr(std::min(name.size() + 1, part.size()))).value_or(0);
         std::optional<double>* limit = nullptr;
         if (name == "error_px") limit = &goal.errorPx;
         if (name == "bytes_mb") limit = &goal.bytes;
         if (name == "triangles") limit = &goal.triangles;
         if (!limit || value <= 0)
-            return planet::badInput(fmt::format("--suggest: {} is unknown; expected error_px=N, bytes_mb=N or "
-                                                "triangles=N with N > 0, or several with commas",
-                                                part));
+            return planet::badInput(
+                fmt::format("--suggest: {} is unknown; expected error_px=N, bytes_mb=N or "
+                            "triangles=N with N > 0, or several with commas",
+                            part));
         *limit = name == "bytes_mb" ? value * bytesOfMb : value;
     }
-    if (text.empty()) return planet::badInput("--suggest is empty; expected such as error_px=1.5,bytes_mb=16");
+    if (text.empty())
+        return planet::badInput("--suggest is empty; expected such as error_px=1.5,bytes_mb=16");
     return goal;
 }
 
@@ -222,8 +225,8 @@ Json whatIfJson(const TraceWhatIfFound& found) {
     json["unlisted_disagreements"] = report.unlistedDisagreements;
     if (found.suggestion) {
         const planet::TraceTauSuggestion& tau = *found.suggestion;
-        json["suggestion"] = {{"tau_px", tau.tauPx},     {"met", tau.isMet},
-                              {"bound", tau.isBound},    {"max_error_px", finiteOrNull(tau.errorPx)},
+        json["suggestion"] = {{"tau_px", tau.tauPx},    {"met", tau.isMet},
+                              {"bound", tau.isBound},   {"max_error_px", finiteOrNull(tau.errorPx)},
                               {"max_bytes", tau.bytes}, {"max_triangles", tau.triangles}};
     }
     return json;

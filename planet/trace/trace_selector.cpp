@@ -11,7 +11,7 @@ namespace planet {
 
 namespace {
 
-constexpr int mostGenerations = 64;     // a hostile trace can link parents in a ring
+constexpr int mostGenerations = 64;      // a hostile trace can link parents in a ring
 constexpr double sameErrorSlack = 1e-4;  // share by which errors may differ and be the same measure
 constexpr int mostLoaders = 1024;
 
@@ -66,8 +66,7 @@ bool isSeen(const TraceState& state, const TraceEngineFrame& engine, TraceNodeIn
     const TraceBounds& bounds = state.nodes()[node].node.bounds;
     if (!engine.view().info || bounds.shape == TraceBoundsShape::None) return true;
     if (isOutsideFrustum(*engine.view().info, bounds)) return false;
-    return !state.description() ||
-           !isBelowHorizon(*state.description(), *engine.view().info, bounds);
+    return !state.description() || !isBelowHorizon(*state.description(), *engine.view().info, bounds);
 }
 
 bool requestsChildren(const TraceState& state) {
@@ -278,7 +277,8 @@ void TraceDisk::endFrame() {
 // ---- the selection ----
 
 bool TraceSelector::Open::operator<(const Open& other) const {
-    const double own = std::isnan(errorPx) ? 0 : errorPx, others = std::isnan(other.errorPx) ? 0 : other.errorPx;
+    const double own = std::isnan(errorPx) ? 0 : errorPx,
+                 others = std::isnan(other.errorPx) ? 0 : other.errorPx;
     return own != others ? own < others : node > other.node;
 }
 
@@ -296,8 +296,8 @@ TraceSelector::Children TraceSelector::childrenOf(const TraceState& state, const
     const std::vector<TraceNodeIndex>& children = state.nodes()[node].children;
     const bool isLoader = requestsChildren(state);
     if (children.empty()) {
-        const bool isAbsent = isLoader && state.hasPaging() &&
-                              state.nodes()[node].data[0].data != TraceData::Resident;
+        const bool isAbsent =
+            isLoader && state.hasPaging() && state.nodes()[node].data[0].data != TraceData::Resident;
         return settings_.residency == TraceResidency::AsTraced && isAbsent ? Children::Missing
                                                                            : Children::Unknown;
     }

@@ -38,8 +38,10 @@ public:
 
     const TraceFrameView& view() const { return *view_; }  // valid as long as the one taken
     const std::vector<TraceNodeIndex>& drawn() const { return drawnList_; }
-    const std::vector<TraceNodeIndex>& split() const { return splitList_; }  // ancestors of drawn or culled nodes
-    const std::vector<TraceNodeIndex>& roots() const { return roots_; }      // of what was drawn or culled
+    const std::vector<TraceNodeIndex>& split() const {
+        return splitList_;
+    }                                                                    // ancestors of drawn or culled nodes
+    const std::vector<TraceNodeIndex>& roots() const { return roots_; }  // of what was drawn or culled
     bool isDrawn(TraceNodeIndex node) const { return has(drawn_, node, stamp_); }
     bool isSplit(TraceNodeIndex node) const { return has(split_, node, stamp_); }
     bool isCulled(TraceNodeIndex node) const { return has(culled_, node, stamp_); }
@@ -82,9 +84,9 @@ enum class TraceResidency : std::uint8_t {
 // Loaders take the request with the largest error over τ first, one at a time. What nothing wants any more is not started.
 // Without a budget nothing is evicted; with one, what was not used for the longest time.
 struct TraceDiskModel {
-    double latencyS = 0.01;     // of a request, engine's seconds, >= 0
-    double bytesPerS = 100e6;   // of each loader, > 0; infinite: only the latency counts
-    int loaders = 1;            // that work at the same time, >= 1
+    double latencyS = 0.01;    // of a request, engine's seconds, >= 0
+    double bytesPerS = 100e6;  // of each loader, > 0; infinite: only the latency counts
+    int loaders = 1;           // that work at the same time, >= 1
 };
 
 struct TraceSelectorSettings {

@@ -53,6 +53,41 @@ std::vector<double> tausBetween(double smallestPx, double largestPx, int count) 
 
 }  // namespace
 
+// ---- totals ----
+
+void TraceSelectionTally::add(std::uint64_t frame, const TraceSelection& selection, std::uint64_t worstNode) {
+    ++totals_.frames;
+    drawn_ += static_cast<double>(selection.drawn.size());
+    triangles_ += static_cast<double>(selection.triangles);
+    bytes_ += static_cast<double>(selection.bytes);
+    totals_.mostDrawn = std::max<std::uint64_t>(totals_.mostDrawn, selection.drawn.size());
+    totals_.mostTriangles = std::max(totals_.mostTriangles, selection.triangles);
+    totals_.mostBytes = std::max(totals_.mostBytes, selection.bytes);
+    totals_.splits += selection.splits;
+    totals_.merges += selection.merges;
+    totals_.unknown += selection.unknown;
+    totals_.waiting += selection.waiting;
+    totals_.limited += selection.limited;
+    totals_.unknownFrames += selection.unknown > 0;
+    if (std::isnan(selection.worstErrorPx)) return;
+    errorPx_ += selection.worstErrorPx;
+    ++errors_;
+    if (selection.worstErrorPx <= totals_.worstErrorPx) return;
+    totals_.worstErrorPx = selection.worstErrorPx;
+    totals_.worstFrame = frame;
+    totals_.worstNode = worstNode;
+}
+
+TraceSelectionTotals TraceSelectionTally::totals() const {
+    TraceSelectionTotals totals = totals_;
+    const auto frames = static_cast<double>(std::max<std::uint64_t>(totals.frames, 1));
+    totals.meanDrawn = drawn_ / frames;
+    totals.meanTriangles = triangles_ / frames;
+    totals.meanBytes = bytes_ / frames;
+    if (errors_ > 0) totals.meanErrorPx = errorPx_ / static_cast<double>(errors_);
+    return totals;
+}
+
 // ---- the frames ----
 
 TraceWhatIf::TraceWhatIf(std::span<const TraceSelectorSettings> settings, Watch watch)
@@ -105,28 +140,9 @@ void TraceWhatIf::run(const TraceState& state, View& view, Run& run, int row) {
     if (watch_) watch_(state, view.view, row, *selection);
 }
 
-void TraceWhatIf::add(const TraceState& state, const TraceSelection& selection, Tally& tally) {
-    TraceSelectionTotals& totals = tally.totals;
-    ++totals.frames;
-    tally.drawn += static_cast<double>(selection.drawn.size());
-    tally.triangles += static_cast<double>(selection.triangles);
-    tally.bytes += static_cast<double>(selection.bytes);
-    totals.mostDrawn = std::max<std::uint64_t>(totals.mostDrawn, selection.drawn.size());
-    totals.mostTriangles = std::max(totals.mostTriangles, selection.triangles);
-    totals.mostBytes = std::max(totals.mostBytes, selection.bytes);
-    totals.splits += selection.splits;
-    totals.merges += selection.merges;
-    totals.unknown += selection.unknown;
-    totals.waiting += selection.waiting;
-    totals.limited += selection.limited;
-    totals.unknownFrames += selection.unknown > 0;
-    if (std::isnan(selection.worstErrorPx)) return;
-    tally.errorPx += selection.worstErrorPx;
-    ++tally.errors;
-    if (selection.worstErrorPx <= totals.worstErrorPx) return;
-    totals.worstErrorPx = selection.worstErrorPx;
-    totals.worstFrame = state.frame().number;
-    totals.worstNode = state.nodes()[selection.worstNode].node.id;
+void TraceWhatIf::add(const TraceState& state, const TraceSelection& selection, TraceSelectionTally& tally) {
+    const bool hasWorst = selection.worstNode != noTraceNode;
+    tally.add(state.frame().number, selection, hasWorst ? state.nodes()[selection.worstNode].node.id : 0);
 }
 
 // Compares the engine's choice with what its settings and errors say, given what it had split before.
@@ -158,11 +174,11 @@ void TraceWhatIf::judge(const TraceState& state, View& view) {
 void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, double fadeS) {
     const TraceFrame& frame = state.frame();
     const bool isCoarse = seen.kind == TraceDisagreementKind::TooCoarse;
-    const std::uint64_t key = static_cast<std::uint64_t>(seen.kind) << 63 |
-                              static_cast<std::uint64_t>(view) << 32 | seen.node;
+    const std::uint64_t key =
+        static_cast<std::uint64_t>(seen.kind) << 63 | static_cast<std::uint64_t>(view) << 32 | seen.node;
     const auto [found, isNew] = open_.try_emplace(key, Open{report_.disagreements.size(), frame.timeS});
-    const bool goesOn =
-        !isNew && report_.disagreements[found->second.place].lastFrame >= std::min(frameBefore_, frame.number);
+    const bool goesOn = !isNew && report_.disagreements[found->second.place].lastFrame >=
+                                      std::min(frameBefore_, frame.number);
     if (!goesOn && report_.disagreements.size() >= maxDisagreements) {
         open_.erase(found);
         ++report_.unlistedDisagreements;
@@ -193,29 +209,20 @@ void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, 
         it.errorPx = seen.errorPx;
         it.limitPx = seen.limitPx;
     }
-    const std::string frames = it.frames == 1
-                                   ? fmt::format("in frame {}", it.firstFrame)
-                                   : fmt::format("in {} frames from {} to {}", it.frames, it.firstFrame, it.lastFrame);
+    const std::string frames =
+        it.frames == 1 ? fmt::format("in frame {}", it.firstFrame)
+                       : fmt::format("in {} frames from {} to {}", it.frames, it.firstFrame, it.lastFrame);
     const std::string name = traceIdText(state.description().value_or(TraceDescription{}), it.node);
-    it.sentence = isCoarse ? fmt::format("{} is drawn with {:.3f} px although its children are there, {}; "
-                                         "expected at most {:g} px",
-                                         name, it.errorPx, frames, it.limitPx)
+    it.sentence = isCoarse ? fmt::format(
+                                 "{} is drawn with {:.3f} px although its children are there, {}; "
+                                 "expected at most {:g} px",
+                                 name, it.errorPx, frames, it.limitPx)
                            : fmt::format("{} is split with {:.3f} px, {}; expected more than {:g} px", name,
                                          it.errorPx, frames, it.limitPx);
 }
 
-TraceSelectionTotals TraceWhatIf::totalsOf(const Tally& tally) {
-    TraceSelectionTotals totals = tally.totals;
-    const auto frames = static_cast<double>(std::max<std::uint64_t>(totals.frames, 1));
-    totals.meanDrawn = tally.drawn / frames;
-    totals.meanTriangles = tally.triangles / frames;
-    totals.meanBytes = tally.bytes / frames;
-    if (tally.errors > 0) totals.meanErrorPx = tally.errorPx / static_cast<double>(tally.errors);
-    return totals;
-}
-
 TraceWhatIfRow TraceWhatIf::rowOf(const Run& run) {
-    return {run.selector.settings(), totalsOf(run.tally), run.frames, run.nodes};
+    return {run.selector.settings(), run.tally.totals(), run.frames, run.nodes};
 }
 
 TraceWhatIfReport TraceWhatIf::finish(const TraceState& state) {
@@ -223,7 +230,7 @@ TraceWhatIfReport TraceWhatIf::finish(const TraceState& state) {
     for (const View& view : views_) {
         TraceWhatIfView& made = report_.views.emplace_back();
         made.view = view.view;
-        made.engine = totalsOf(view.engine);
+        made.engine = view.engine.totals();
         made.own = rowOf(view.own);
         for (const Run& run : view.runs) made.rows.push_back(rowOf(run));
     }

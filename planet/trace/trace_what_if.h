@@ -33,6 +33,19 @@ struct TraceSelectionTotals {
     std::uint64_t unknownFrames = 0;  // with at least one unknown: the totals are bounds
 };
 
+// Adds the frames of a view up.
+class TraceSelectionTally {
+public:
+    // worstNode: the id of selection.worstNode; it does not matter if that is noTraceNode.
+    void add(std::uint64_t frame, const TraceSelection& selection, std::uint64_t worstNode);
+    TraceSelectionTotals totals() const;
+
+private:
+    TraceSelectionTotals totals_;
+    double drawn_ = 0, triangles_ = 0, bytes_ = 0, errorPx_ = 0;  // sums
+    std::uint64_t errors_ = 0;
+};
+
 // One selection beside the engine's, in one view.
 struct TraceWhatIfRow {
     TraceSelectorSettings settings{};
@@ -94,21 +107,16 @@ public:
     TraceWhatIfReport finish(const TraceState& state);
 
 private:
-    struct Tally {
-        TraceSelectionTotals totals;
-        double drawn = 0, triangles = 0, bytes = 0, errorPx = 0;  // sums
-        std::uint64_t errors = 0;
-    };
     struct Run {
         TraceSelector selector;
-        Tally tally;
+        TraceSelectionTally tally;
         std::uint64_t frames = 0, nodes = 0;  // that differ
     };
     struct View {
         int view = 0;
         TraceEngineFrame frame;
         TraceLevelCounter counter;
-        Tally engine;
+        TraceSelectionTally engine;
         TraceSelector judge;
         Run own;
         std::vector<Run> runs;
@@ -128,8 +136,7 @@ private:
     void run(const TraceState& state, View& view, Run& run, int row);
     void judge(const TraceState& state, View& view);
     void note(const TraceState& state, int view, const Sighting& seen, double fadeS);
-    static void add(const TraceState& state, const TraceSelection& selection, Tally& tally);
-    static TraceSelectionTotals totalsOf(const Tally& tally);
+    static void add(const TraceState& state, const TraceSelection& selection, TraceSelectionTally& tally);
     static TraceWhatIfRow rowOf(const Run& run);
 
     std::vector<TraceSelectorSettings> settings_;
@@ -157,13 +164,14 @@ std::vector<bool> traceFront(std::span<const TraceWhatIfRow> rows, TraceCost cos
 
 // Limits of a frame, in each view. An unset one always holds.
 struct TraceTauGoal {
-    std::optional<double> errorPx{};      // > 0
-    std::optional<double> bytes{};        // that the view needs, > 0
-    std::optional<double> triangles{};    // > 0
+    std::optional<double> errorPx{};    // > 0
+    std::optional<double> bytes{};      // that the view needs, > 0
+    std::optional<double> triangles{};  // > 0
 };
 struct TraceTauSuggestion {
     double tauPx = 0;
-    bool isMet = false;    // false: no τ meets all limits, and this one meets the limit of the cost, or is nearest to it
+    bool isMet =
+        false;  // false: no τ meets all limits, and this one meets the limit of the cost, or is nearest to it
     bool isBound = false;  // some nodes were not known, so the cost may be larger
     // The largest of all views at this τ.
     double errorPx = std::numeric_limits<double>::quiet_NaN();

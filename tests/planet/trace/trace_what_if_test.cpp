@@ -218,7 +218,8 @@ TEST_F(TraceWhatIfs, dataAsTracedStopsWhereTheEngineHadNone) {
 
 TEST_F(TraceWhatIfs, aDiskDeliversTheLargestErrorFirst) {
     TraceSelectorSettings settings = withTau(0.8, Residency::Disk);
-    settings.disk = {.latencyS = 0.05, .bytesPerS = 10'000, .loaders = 1};  // 0.15 s for a node; a frame is 0.1 s
+    settings.disk = {
+        .latencyS = 0.05, .bytesPerS = 10'000, .loaders = 1};  // 0.15 s for a node; a frame is 0.1 s
     selectWith({settings});
     tellNodes(7);
     frame(2.9, {1});  // at 0.1 s; 2 and 3 are asked for
@@ -405,10 +406,9 @@ TraceWhatIfRow rowWith(double errorPx, std::uint64_t bytes) {
 }
 
 TEST(TraceFronts, aRowThatAnotherOneBeatsIsNotOnTheFront) {
-    const std::vector rows = {rowWith(1, 100), rowWith(2, 60), rowWith(2, 70), rowWith(3, 60),
+    const std::vector rows = {rowWith(1, 100), rowWith(2, 60),  rowWith(2, 70),          rowWith(3, 60),
                               rowWith(4, 10),  rowWith(1, 100), rowWith(std::nan(""), 1)};
-    EXPECT_EQ(traceFront(rows, TraceCost::Bytes),
-              (std::vector{true, true, false, false, true, true, false}));
+    EXPECT_EQ(traceFront(rows, TraceCost::Bytes), (std::vector{true, true, false, false, true, true, false}));
 }
 
 // A file of the same tree: nodes are described late, when the engine first needs them.
