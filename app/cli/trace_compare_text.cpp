@@ -31,7 +31,8 @@ std::string idsText(const std::optional<planet::TraceDescription>& description,
 }
 
 std::string pxText(double px) {
-    return std::isfinite(px) ? fmt::format("{:.2f}", px) : "-";
+    if (!std::isfinite(px)) return "-";
+    return px < 1e5 ? fmt::format("{:.2f}", px) : fmt::format("{:.2e}", px);
 }
 
 void printSide(const char* side, const TraceSelectionTotals& totals) {

@@ -29,7 +29,8 @@ Json finiteOrNull(double value) {
 }
 
 std::string errorText(double px) {
-    return std::isfinite(px) ? fmt::format("{:.2f}", px) : "-";
+    if (!std::isfinite(px)) return "-";
+    return px < 1e5 ? fmt::format("{:.2f}", px) : fmt::format("{:.2e}", px);
 }
 
 std::string idTextOf(const TraceWhatIfReport& report, std::uint64_t id) {

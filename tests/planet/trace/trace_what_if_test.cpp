@@ -240,6 +240,32 @@ TEST_F(TraceWhatIfs, moreLoadersDeliverSooner) {
     EXPECT_EQ(drawn(), (Ids{2, 3}));  // at 0.3 s
 }
 
+TEST(TraceDisks, whatNothingWantsAnyMoreIsNotStarted) {
+    TraceDisk disk({.latencyS = 1, .bytesPerS = 1e9, .loaders = 1}, {});
+    disk.beginFrame(0);
+    disk.ask(1, 2, 0);
+    disk.ask(2, 1, 0);
+    disk.beginFrame(0.5);  // 1 has begun, and 2 is not asked for again
+    disk.beginFrame(10);
+    EXPECT_TRUE(disk.isThere(1));
+    EXPECT_FALSE(disk.isThere(2));
+}
+
+TEST(TraceDisks, aBudgetEvictsWhatWasNotUsedForTheLongestTime) {
+    TraceDisk disk({.latencyS = 0, .bytesPerS = 1e9, .loaders = 1}, 150);
+    disk.beginFrame(0);
+    disk.ask(1, 2, 100);
+    disk.ask(2, 1, 100);
+    disk.beginFrame(1);
+    disk.endFrame();
+    disk.beginFrame(2);
+    disk.use(1);
+    disk.endFrame();
+    EXPECT_TRUE(disk.isThere(1));
+    EXPECT_FALSE(disk.isThere(2));
+    EXPECT_EQ(disk.bytes(), 100u);
+}
+
 class TraceWhatIfsOfChildren : public TraceWhatIfs {
 protected:
     TraceWhatIfsOfChildren() : TraceWhatIfs(TraceRequests::Children) {}
@@ -436,6 +462,8 @@ protected:
             lod_trace_view(trace, 0, &view);
             for (std::uint64_t id = first; id < 2 * first; ++id) lod_trace_drawn(trace, 0, id, 0);
             lod_trace_frame_end(trace, -1, -1);
+            // A block ends, so that its definitions lack what is described later.
+            if (frame == 19) lod_trace_flush(trace, 10'000);
         }
     }
     static void tell(lod_trace* trace, std::uint64_t id) {
