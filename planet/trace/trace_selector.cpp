@@ -140,8 +140,7 @@ void TraceEngineFrame::take(const TraceState& state, const TraceFrameView& view,
         if (state.nodes()[culled.node].parent != noTraceNode) addAncestors(culled.node);
     }
     std::ranges::sort(roots_);
-    const auto doubled = std::ranges::unique(roots_);
-    roots_.erase(doubled.begin(), doubled.end());
+    roots_.erase(std::unique(roots_.begin(), roots_.end()), roots_.end());
 }
 
 bool TraceEngineFrame::isCertain(const TraceState& state, TraceNodeIndex child) const {

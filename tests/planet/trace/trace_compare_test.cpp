@@ -29,7 +29,7 @@ protected:
         const lod_trace_description description{};
         lod_trace_describe(trace, &description);
         if (change.namesMore) tell(trace, 77);
-        for (const std::uint64_t id : {1, 2, 3}) tell(trace, id);
+        for (const std::uint64_t id : {1u, 2u, 3u}) tell(trace, id);
         for (int frame = 0; frame < change.frames; ++frame) {
             if (frame == change.skippedFrame) continue;
             lod_trace_frame_begin(trace,

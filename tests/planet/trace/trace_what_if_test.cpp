@@ -206,7 +206,7 @@ TEST_F(TraceWhatIfs, aBudgetSplitsTheLargestErrorsFirst) {
 TEST_F(TraceWhatIfs, dataAsTracedStopsWhereTheEngineHadNone) {
     selectWith({withTau(0.5), withTau(0.5, Residency::AsTraced)});
     tellNodes(7);
-    for (const std::uint64_t id : {2, 3, 4, 5}) page(TraceStep::Arrived, id);
+    for (const std::uint64_t id : {2u, 3u, 4u, 5u}) page(TraceStep::Arrived, id);
     frame(1.9, {1});  // what has just arrived may not be there yet
     EXPECT_EQ(drawn(1), (Ids{1}));
     EXPECT_EQ(last(1).waiting, 1u);
@@ -360,7 +360,7 @@ TEST_F(TraceWhatIfs, aSplitThatTheHysteresisKeepsIsNotListed) {
 
 TEST_F(TraceWhatIfs, nodesThatWaitForDataAreNotListed) {
     tellNodes(15);
-    for (const std::uint64_t id : {2, 3, 4}) page(TraceStep::Arrived, id);
+    for (const std::uint64_t id : {2u, 3u, 4u}) page(TraceStep::Arrived, id);
     frame(2.9, {2, 3});
     frame(2.9, {2, 3});
     EXPECT_TRUE(report().disagreements.empty());
