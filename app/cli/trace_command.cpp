@@ -28,7 +28,7 @@ constexpr std::array faultKinds = {planet::TraceFaultKind::DrawnTwice, planet::T
                                    planet::TraceFaultKind::TooCoarse,  planet::TraceFaultKind::TooFine};
 
 // Returns null for what is not known, which JSON cannot represent as a number.
-Json numberOrNull(double value) {
+Json tracedOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -138,9 +138,9 @@ void printFaults(const TraceReport& report, int worst) {
 
 Json jsonOf(const planet::TraceSpread& spread, double factor) {
     return {{"count", spread.count},
-            {"median", numberOrNull(factor * spread.median)},
-            {"p99", numberOrNull(factor * spread.p99)},
-            {"max", numberOrNull(factor * spread.most)}};
+            {"median", tracedOrNull(factor * spread.median)},
+            {"p99", tracedOrNull(factor * spread.p99)},
+            {"max", tracedOrNull(factor * spread.most)}};
 }
 
 Json jsonOf(const TraceReport& report, const planet::TraceViewReport& view) {
@@ -152,7 +152,7 @@ Json jsonOf(const TraceReport& report, const planet::TraceViewReport& view) {
                  {"splits", view.splits},
                  {"merges", view.merges},
                  {"thrashes", view.thrashes},
-                 {"max_error_px", numberOrNull(view.worstErrorPx)}};
+                 {"max_error_px", tracedOrNull(view.worstErrorPx)}};
     if (std::isfinite(view.worstErrorPx)) {
         json["max_error_frame"] = view.worstFrame;
         json["max_error_node"] = idText(report, view.worstNode);
@@ -183,8 +183,8 @@ Json jsonOf(const TraceReport& report, const planet::TraceFault& fault) {
     if (fault.view >= 0) json["view"] = fault.view;
     json["node"] = idText(report, fault.node);
     if (fault.hasOther) json["other"] = idText(report, fault.other);
-    json["value"] = numberOrNull(fault.value);
-    json["limit"] = numberOrNull(fault.limit);
+    json["value"] = tracedOrNull(fault.value);
+    json["limit"] = tracedOrNull(fault.limit);
     json["sentence"] = fault.sentence;
     return json;
 }
