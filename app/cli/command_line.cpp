@@ -35,6 +35,7 @@
 #include "app/cli/shot_command.h"
 #include "app/cli/sweep_command.h"
 #include "app/cli/trace_command.h"
+#include "app/cli/trace_what_if_text.h"
 #include "app/cli/write_plan.h"
 #include "app/data/layer_materials.h"
 #include "app/data/worlds.h"
@@ -267,8 +268,56 @@ void addReplay(CLI::App& command, ReplayOptions& options) {
         ->excludes(simulated);
 }
 
-void addTrace(CLI::App& command, TraceCommandOptions& options) {
+struct TraceTexts {
+    std::string goal;
+    std::string data = "all";
+    std::string match = "time";
+    std::optional<double> budgetMb;
+    double diskLatencyMs = 1000 * planet::TraceDiskModel{}.latencyS;
+    double diskMbPerS = planet::TraceDiskModel{}.bytesPerS / 1e6;
+};
+constexpr std::array<std::string_view, 3> traceDataNames = {"all", "traced", "disk"};  // of TraceResidency
+constexpr std::array<std::string_view, 2> traceMatchNames = {"time", "number"};        // of TraceMatch
+
+void addTraceWhatIf(CLI::App& command, TraceWhatIfOptions& options, TraceTexts& texts) {
+    command
+        .add_option("--what-if", options.tausPx,
+                    "Tolerances, such as 1,2,4, to select with again over the frames of the trace, pixels")
+        ->delimiter(',')
+        ->check(number(0, 1e6, false));
+    command
+        .add_option("--suggest", texts.goal,
+                    "Find the tau that meets error_px=N, bytes_mb=N or triangles=N, or several with commas")
+        ->option_text("LIMITS");
+    command
+        .add_option("--hysteresis", options.settings.hysteresis,
+                    "Hysteresis to select with, a share of tau (the engine's)")
+        ->check(number(0, 0.99));
+    command
+        .add_option("--budget-mb", texts.budgetMb, "Most data to select, 10^6 bytes for each view (no limit)")
+        ->check(number(0, 1e9, false));
+    command
+        .add_option(
+            "--data", texts.data,
+            "Data that is there: all, as traced, or as a disk delivers it from the first frame on (all)")
+        ->check(oneOf(traceDataNames));
+    command.add_option("--disk-ms", texts.diskLatencyMs, "For --data disk: latency of a request, ms (10)")
+        ->check(number(0, 1e6));
+    command
+        .add_option("--disk-mb-s", texts.diskMbPerS,
+                    "For --data disk: 10^6 bytes per second of a loader (100)")
+        ->check(number(0, 1e9, false));
+    command.add_option("--loaders", options.settings.disk.loaders, "For --data disk: loaders at work (1)")
+        ->check(number(1, 64));
+}
+
+void addTrace(CLI::App& command, TraceCommandOptions& options, TraceTexts& texts) {
     command.add_option("FILE", options.file, "Trace, as planet/trace/lod_trace.h writes it")->required();
+    command.add_option("OTHER", options.other,
+                       "A later trace of the same flight, to compare frame by frame; limits apply to it");
+    command.add_option("--match", texts.match, "Frames are the same by time or number (time)")
+        ->check(oneOf(traceMatchNames));
+    addTraceWhatIf(command, options.whatIf, texts);
     const auto limit = [&command](const char* name, auto& value, double most, const char* help) {
         command.add_option(name, value, help)->check(number(0, most));
     };
@@ -281,6 +330,10 @@ void addTrace(CLI::App& command, TraceCommandOptions& options) {
           "Limit: number of level changes that undo another one within 1 s");
     limit("--max-over-budget", options.limits.overBudget, 100, "Limit: percentage of frames over --frame-ms");
     limit("--max-dropped", options.limits.dropped, 1e9, "Limit: number of events that the trace lost");
+    limit("--max-differing", options.limits.differing, 1e9,
+          "Limit: number of frames in which OTHER draws other nodes");
+    limit("--max-disagreeing", options.limits.disagreeing, 1e9,
+          "Limit: number of frames in which the engine's choice is not what its own errors and tau say");
     command.add_option("--frame-ms", options.budgetMs, "Budget of a frame, CPU and GPU each, ms (16.7)")
         ->check(number(1e-3, 1e6));
     command
@@ -428,6 +481,28 @@ Result<void> finish(SweepOptions& options, const SweepTexts& texts) {
     return tauGoalFromText(texts.goal).map([&](const TauGoal& goal) { options.goal = goal; });
 }
 
+Result<void> finish(TraceCommandOptions& options, const TraceTexts& texts) {
+    planet::TraceSelectorSettings& settings = options.whatIf.settings;
+    const auto placeOf = [](const auto& names, const std::string& name) {
+        return std::find(names.begin(), names.end(), name) - names.begin();
+    };
+    settings.residency = static_cast<planet::TraceResidency>(placeOf(traceDataNames, texts.data));
+    options.match = static_cast<planet::TraceMatch>(placeOf(traceMatchNames, texts.match));
+    if (texts.budgetMb) settings.budgetBytes = static_cast<std::uint64_t>(*texts.budgetMb * 1e6);
+    settings.disk.latencyS = texts.diskLatencyMs / 1000;
+    settings.disk.bytesPerS = texts.diskMbPerS * 1e6;
+    const bool asksWhatIf = !options.whatIf.tausPx.empty() || !texts.goal.empty();
+    if (!options.other.empty() && (asksWhatIf || options.limits.disagreeing))
+        return planet::badInput(
+            "--what-if, --suggest and --max-disagreeing take one trace; expected no second FILE with them");
+    if (options.other.empty() && options.limits.differing)
+        return planet::badInput("--max-differing compares two traces; expected a second FILE");
+    if (texts.goal.empty()) return {};
+    return traceTauGoalFromText(texts.goal).map([&](const planet::TraceTauGoal& goal) {
+        options.whatIf.goal = goal;
+    });
+}
+
 // Sets both sides from the shared options. A side's own settings file replaces the shared one.
 Result<void> finish(CompareOptions& options, const SharedTexts& shared, const CompareTexts& sides) {
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -484,6 +559,7 @@ struct CommandLine {
     MakeLayersOptions makeLayers;
     SettingsCommandOptions settings;
     TraceCommandOptions trace;
+    TraceTexts traceTexts;
     std::map<std::string_view, SharedTexts> shared;  // by command; map nodes do not move
     std::vector<std::filesystem::path> moreInputs;   // files read besides those in the options
 
@@ -519,7 +595,7 @@ struct CommandLine {
         addCompare(at("compare"), compare, compareTexts);
         addMakeLayers(at("make-layers"), makeLayers);
         addSettings(at("settings"), settings);
-        addTrace(at("trace"), trace);
+        addTrace(at("trace"), trace, traceTexts);
         app.require_subcommand(0, 1);
     }
     // Copies the shared options of a command into its own. Returns the settings.
@@ -618,7 +694,8 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"pops", command("pops", line.pops, runPops, ready)},
         {"audit", command("audit", line.audit, runAudit, ready)},
         {"settings", command("settings", line.settings, runSettings, ready)},
-        {"trace", command("trace", line.trace, runTrace, ready)},
+        {"trace", command("trace", line.trace, runTrace,
+                          [&](const Settings&) { return finish(line.trace, line.traceTexts); })},
         {"compare", command("compare", line.compare, runCompare,
                             [&](const Settings&) {
                                 for (const SideTexts& side : line.compareTexts)

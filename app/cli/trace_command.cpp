@@ -11,6 +11,8 @@
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
 #include "app/base/text.h"
+#include "app/cli/trace_compare_text.h"
+#include "app/cli/trace_what_if_text.h"
 
 namespace worldy {
 
@@ -26,7 +28,7 @@ constexpr std::array faultKinds = {planet::TraceFaultKind::DrawnTwice, planet::T
                                    planet::TraceFaultKind::TooCoarse,  planet::TraceFaultKind::TooFine};
 
 // Returns null for what is not known, which JSON cannot represent as a number.
-Json numberOrNull(double value) {
+Json tracedOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
@@ -136,9 +138,9 @@ void printFaults(const TraceReport& report, int worst) {
 
 Json jsonOf(const planet::TraceSpread& spread, double factor) {
     return {{"count", spread.count},
-            {"median", numberOrNull(factor * spread.median)},
-            {"p99", numberOrNull(factor * spread.p99)},
-            {"max", numberOrNull(factor * spread.most)}};
+            {"median", tracedOrNull(factor * spread.median)},
+            {"p99", tracedOrNull(factor * spread.p99)},
+            {"max", tracedOrNull(factor * spread.most)}};
 }
 
 Json jsonOf(const TraceReport& report, const planet::TraceViewReport& view) {
@@ -150,7 +152,7 @@ Json jsonOf(const TraceReport& report, const planet::TraceViewReport& view) {
                  {"splits", view.splits},
                  {"merges", view.merges},
                  {"thrashes", view.thrashes},
-                 {"max_error_px", numberOrNull(view.worstErrorPx)}};
+                 {"max_error_px", tracedOrNull(view.worstErrorPx)}};
     if (std::isfinite(view.worstErrorPx)) {
         json["max_error_frame"] = view.worstFrame;
         json["max_error_node"] = idText(report, view.worstNode);
@@ -181,8 +183,8 @@ Json jsonOf(const TraceReport& report, const planet::TraceFault& fault) {
     if (fault.view >= 0) json["view"] = fault.view;
     json["node"] = idText(report, fault.node);
     if (fault.hasOther) json["other"] = idText(report, fault.other);
-    json["value"] = numberOrNull(fault.value);
-    json["limit"] = numberOrNull(fault.limit);
+    json["value"] = tracedOrNull(fault.value);
+    json["limit"] = tracedOrNull(fault.limit);
     json["sentence"] = fault.sentence;
     return json;
 }
@@ -255,21 +257,101 @@ Json traceJson(const TraceCommandOptions& options, const TraceReport& report) {
     return json;
 }
 
+namespace {
+
+// Returns a sentence for a limit of a count that does not hold.
+std::optional<std::string> brokenCount(const std::optional<int>& limit, std::uint64_t count,
+                                       const char* what) {
+    if (!limit || count <= static_cast<std::uint64_t>(*limit)) return std::nullopt;
+    return fmt::format("{} is {}; expected at most {}", what, count, *limit);
+}
+
+bool asksWhatIf(const TraceCommandOptions& options) {
+    return !options.whatIf.tausPx.empty() || options.whatIf.goal || options.limits.disagreeing;
+}
+
+Result<TraceWhatIfFound> whatIf(const TraceCommandOptions& options, planet::TraceFile& file,
+                                const std::function<bool()>& goOn) {
+    TraceWhatIfFound found;
+    std::vector<planet::TraceSelectorSettings> settings;
+    for (const double tauPx : options.whatIf.tausPx) {
+        settings.push_back(options.whatIf.settings);
+        settings.back().tauPx = tauPx;
+    }
+    Result<planet::TraceWhatIfReport> report = planet::whatIfOfTrace(file, settings, goOn);
+    if (!report) return tl::unexpected(report.error());
+    found.report = *std::move(report);
+    if (!options.whatIf.goal || found.report.isDamaged) return found;
+    found.goal = *options.whatIf.goal;
+    const auto tau = planet::suggestTraceTau(file, options.whatIf.settings, found.goal, goOn);
+    if (!tau) return tl::unexpected(tau.error());
+    found.suggestion = *tau;
+    return found;
+}
+
+// Prints the sentences; returns whether there are none.
+bool holdAll(const std::vector<std::string>& broken) {
+    for (const std::string& sentence : broken) printMessage("worldy: {}\n", sentence);
+    return broken.empty();
+}
+
+Result<bool> runTraceCompare(const TraceCommandOptions& options) {
+    Result<planet::TraceFile> a = planet::TraceFile::open(options.file);
+    if (!a) return tl::unexpected(a.error());
+    Result<planet::TraceFile> b = planet::TraceFile::open(options.other);
+    if (!b) return tl::unexpected(b.error());
+    const InterruptWatch watch;
+    const auto goOn = [&] { return !watch.interrupted(); };
+    const auto compared = planet::compareTraces(*a, *b, {.match = options.match}, goOn);
+    if (!compared) return tl::unexpected(compared.error());
+    const Result<TraceReport> report = planet::reportOfTrace(*b, options.budgetMs, options.faults, goOn);
+    if (!report) return tl::unexpected(report.error());
+    std::vector<std::string> broken = brokenLimits(options.limits, *report);
+    if (const auto sentence = brokenCount(options.limits.differing, compared->framesThatDiffer,
+                                          "the number of frames that draw other nodes"))
+        broken.push_back(*sentence);
+    const std::array files = {options.file.string(), options.other.string()};
+    if (!options.report.json) printTraceComparison(files, *compared, options.worst);
+    Json json = traceComparisonJson(files, *compared);
+    json["broken_limits"] = broken;
+    if (Result<void> written = writeReport(options.report, json); !written)
+        return tl::unexpected(std::move(written).error());
+    if (compared->isDamagedA) return planet::badInput(*compared->problemA);
+    if (compared->isDamagedB) return planet::badInput(*compared->problemB);
+    for (const auto& problem : {compared->problemA, compared->problemB})
+        if (problem) printMessage("worldy: {}\n", *problem);
+    return holdAll(broken);
+}
+
+}  // namespace
+
 Result<bool> runTrace(const TraceCommandOptions& options) {
+    if (!options.other.empty()) return runTraceCompare(options);
     Result<planet::TraceFile> file = planet::TraceFile::open(options.file);
     if (!file) return tl::unexpected(file.error());
     const InterruptWatch watch;
-    const Result<TraceReport> report =
-        planet::reportOfTrace(*file, options.budgetMs, options.faults, [&] { return !watch.interrupted(); });
+    const auto goOn = [&] { return !watch.interrupted(); };
+    const Result<TraceReport> report = planet::reportOfTrace(*file, options.budgetMs, options.faults, goOn);
     if (!report) return tl::unexpected(report.error());
+    std::vector<std::string> broken = brokenLimits(options.limits, *report);
+    Json json = traceJson(options, *report);
     if (!options.report.json) printTrace(options, *report);
-    if (Result<void> written = writeReport(options.report, traceJson(options, *report)); !written)
+    if (asksWhatIf(options)) {
+        const Result<TraceWhatIfFound> found = whatIf(options, *file, goOn);
+        if (!found) return tl::unexpected(found.error());
+        if (const auto sentence =
+                brokenCount(options.limits.disagreeing, found->report.framesThatDisagree,
+                            "the number of frames that contradict the engine's own numbers"))
+            broken.push_back(*sentence);
+        if (!options.report.json) printWhatIf(*found, options.worst);
+        json["what_if"] = whatIfJson(*found);
+        json["broken_limits"] = broken;
+    }
+    if (Result<void> written = writeReport(options.report, json); !written)
         return tl::unexpected(std::move(written).error());
     if (report->isDamaged) return planet::badInput(*report->problem);
     if (report->problem) printMessage("worldy: {}\n", *report->problem);
-    const std::vector<std::string> broken = brokenLimits(options.limits, *report);
-    for (const std::string& sentence : broken) printMessage("worldy: {}\n", sentence);
-    return broken.empty();
+    return holdAll(broken);
 }
 
 }  // namespace worldy

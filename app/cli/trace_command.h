@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "app/base/report.h"
+#include "planet/trace/trace_compare.h"
 #include "planet/trace/trace_report.h"
+#include "planet/trace/trace_what_if.h"
 
 namespace worldy {
 
@@ -20,18 +22,31 @@ struct TraceLimits {
     std::optional<double> thrashes;    // over all views, >= 0
     std::optional<double> overBudget;  // share of the frames, percent, [0, 100]
     std::optional<int> dropped;        // events that the trace lost, >= 0
+    std::optional<int> differing;      // frames in which the other trace draws other nodes, >= 0
+    std::optional<int>
+        disagreeing;  // frames in which the engine's choice is not what its own numbers say, >= 0
+};
+
+// What if: selections with other settings over the same frames.
+struct TraceWhatIfOptions {
+    std::vector<double> tausPx{};                // > 0; empty, and no goal: nothing is selected again
+    planet::TraceSelectorSettings settings{};    // all but τ
+    std::optional<planet::TraceTauGoal> goal{};  // a τ is searched
 };
 
 struct TraceCommandOptions {
     std::filesystem::path file;
+    std::filesystem::path other{};  // a later trace of the same flight, to compare; the limits apply to it
+    planet::TraceMatch match = planet::TraceMatch::Time;
     ReportTo report;
     int worst = 20;                 // faults to list, >= 0; the report contains all
     double budgetMs = 1000.0 / 60;  // of a frame, > 0
     planet::TraceFaultLimits faults;
     TraceLimits limits;
+    TraceWhatIfOptions whatIf;
 };
 
-// Returns true if all limits hold. A trace that is damaged is an Error, after a report of what came before. One that is cut
+// Sums a trace up, selects over it again if whatIf says so, or compares it with another one. Returns true if all limits hold. A trace that is damaged is an Error, after a report of what came before. One that is cut
 // off, as by an engine that was killed, is reported with a message.
 planet::Result<bool> runTrace(const TraceCommandOptions& options);
 

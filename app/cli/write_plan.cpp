@@ -182,6 +182,7 @@ CommandFiles filesOf(const SweepOptions& options) {
 CommandFiles filesOf(const TraceCommandOptions& options) {
     CommandFiles files;
     files.inputs.push_back(options.file);
+    if (!options.other.empty()) files.inputs.push_back(options.other);
     files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }

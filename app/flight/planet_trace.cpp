@@ -111,6 +111,7 @@ void PlanetTrace::tellSettings(const planet::LodSettings& lod, std::size_t view)
     tell(LOD_TRACE_TAU, lod.tauPx);
     tell(LOD_TRACE_HYSTERESIS, lod.hysteresis);
     tell(LOD_TRACE_MAX_LEVEL, lod.maxLevel);
+    tell("fade_s", lod.morph ? lod.fadeS : 0);
 }
 
 void PlanetTrace::tellNodes(const planet::Planet& planet, std::size_t view) {

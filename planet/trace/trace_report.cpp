@@ -27,17 +27,18 @@ bool coversOne(const TraceState& state, const std::unordered_set<TraceNodeIndex>
     return false;
 }
 
-// Returns the ancestors of drawn nodes.
-std::unordered_set<TraceNodeIndex> splitNodes(const TraceState& state,
-                                              const std::unordered_set<TraceNodeIndex>& drawn) {
+// Returns the ancestors of drawn nodes and of those that were culled.
+std::unordered_set<TraceNodeIndex> splitNodes(const TraceState& state, const TraceFrameView& view) {
     std::unordered_set<TraceNodeIndex> split;
-    for (const TraceNodeIndex node : drawn) {
+    const auto addAncestors = [&](TraceNodeIndex node) {
         TraceNodeIndex ancestor = state.nodes()[node].parent;
         for (int step = 0; step < mostParents && ancestor != noTraceNode; ++step) {
             if (!split.insert(ancestor).second) break;
             ancestor = state.nodes()[ancestor].parent;
         }
-    }
+    };
+    for (const TraceDrawn& each : view.drawn) addAncestors(each.node);
+    for (const TraceCulled& each : view.culled) addAncestors(each.node);
     return split;
 }
 
@@ -102,7 +103,7 @@ void TraceReporter::addView(const TraceState& state, const TraceFrameView& frame
     report.mostTriangles = std::max(report.mostTriangles, triangles);
     view.drawnTotal += drawn.size();
     addErrors(state, frame, view);
-    addChanges(state, std::move(drawn), view);
+    addChanges(state, frame, std::move(drawn), view);
 }
 
 void TraceReporter::addErrors(const TraceState& state, const TraceFrameView& frame, View& view) {
@@ -127,9 +128,9 @@ void TraceReporter::addErrors(const TraceState& state, const TraceFrameView& fra
     report.framesOverTau += isOver;
 }
 
-void TraceReporter::addChanges(const TraceState& state, std::unordered_set<TraceNodeIndex> drawn,
-                               View& view) {
-    std::unordered_set<TraceNodeIndex> split = splitNodes(state, drawn);
+void TraceReporter::addChanges(const TraceState& state, const TraceFrameView& frame,
+                               std::unordered_set<TraceNodeIndex> drawn, View& view) {
+    std::unordered_set<TraceNodeIndex> split = splitNodes(state, frame);
     if (view.hasBefore) {
         for (const TraceNodeIndex node : split) {
             if (!view.split.contains(node) && coversOne(state, view.drawn, node))

@@ -34,7 +34,7 @@ struct TraceViewReport {
     std::uint64_t mostDrawn = 0;
     std::uint64_t mostTriangles = 0;  // of nodes that told them
     double meanDrawn = 0;
-    // Changes between two frames without a gap. A node that was drawn, or lies in one that was, and now has a drawn
+    // Changes between two frames without a gap. A node that was drawn, or lies in one that was, and now has a drawn or culled
     // descendant, was split; the reverse is a merge. It is a thrash if the same node changed the other way less than 1 s before.
     std::uint64_t splits = 0;
     std::uint64_t merges = 0;
@@ -103,7 +103,7 @@ private:
         std::uint64_t drawnTotal = 0;
         bool hasBefore = false;  // the sets are those of the frame before
         std::unordered_set<TraceNodeIndex> drawn;
-        std::unordered_set<TraceNodeIndex> split;  // nodes with a drawn descendant
+        std::unordered_set<TraceNodeIndex> split;  // nodes with a drawn or culled descendant
         std::unordered_map<TraceNodeIndex, Change> changes;
     };
     struct Kind {
@@ -113,7 +113,8 @@ private:
     };
 
     void addView(const TraceState& state, const TraceFrameView& frame, View& view);
-    void addChanges(const TraceState& state, std::unordered_set<TraceNodeIndex> drawn, View& view);
+    void addChanges(const TraceState& state, const TraceFrameView& frame,
+                    std::unordered_set<TraceNodeIndex> drawn, View& view);
     void addErrors(const TraceState& state, const TraceFrameView& frame, View& view);
     void addPaged(const TraceState& state, const TracePagedStep& step);
     static void note(const TraceState& state, TraceNodeIndex node, bool isSplit, View& view);

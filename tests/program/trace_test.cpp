@@ -78,6 +78,71 @@ TEST_F(TraceCommand, readsWhatThereIsOfATraceThatIsCutOff) {
     EXPECT_THAT(ran.errors, HasSubstr("down.lodtrace: byte"));
 }
 
+TEST_F(TraceCommand, selectsAgainWithOtherTausAndSuggestsOne) {
+    fly();
+    const json found = trace("--what-if 0.5,1,4 --suggest error_px=2,bytes_mb=1000")["what_if"];
+    ASSERT_EQ(found["view"].size(), 1u);
+    const json& view = found["view"][0];
+    ASSERT_EQ(view["selection"].size(), 3u);
+    EXPECT_EQ(view["engine"]["frames"], 40);
+    EXPECT_EQ(view["own_settings"]["totals"]["frames"], 40);
+    EXPECT_LT(view["selection"][2]["totals"]["max_triangles"],
+              view["selection"][1]["totals"]["max_triangles"]);
+    EXPECT_LE(view["selection"][1]["totals"]["max_triangles"],
+              view["selection"][0]["totals"]["max_triangles"]);
+    EXPECT_EQ(view["selection"][2]["data"], "all");
+    EXPECT_EQ(view["selection"][2]["on_front_of_bytes"], true);
+    EXPECT_EQ(found["suggestion"]["met"], true);
+    EXPECT_LE(found["suggestion"]["max_error_px"], 2);
+    const Ran text =
+        runWorldy(folder_, "trace down.lodtrace --what-if 2 --data disk --loaders 2 --budget-mb 8");
+    EXPECT_EQ(text.exitCode, 0) << text.errors;
+    EXPECT_THAT(text.output, HasSubstr("tau 2 px"));
+    const Ran wrong = runWorldy(folder_, "trace down.lodtrace --suggest bytes=3");
+    EXPECT_EQ(wrong.exitCode, 2);
+    EXPECT_THAT(wrong.errors, HasSubstr("expected error_px=N, bytes_mb=N or triangles=N"));
+    EXPECT_EQ(runWorldy(folder_, "trace down.lodtrace --what-if 0").exitCode, 2);
+}
+
+TEST_F(TraceCommand, withoutFadesWorldyDoesWhatItsOwnNumbersSay) {
+    bakePlanet(folder_);
+    const Ran flown =
+        runWorldy(folder_,
+                  "fly planet.chk --flight flight.toml --frames 40 --size 320x200 --tau 1 --set "
+                  "lod.fade_s=0 --trace down.lodtrace -o fly.json");
+    ASSERT_EQ(flown.exitCode, 0) << flown.errors;
+    const json found = trace("--what-if 1 --max-disagreeing 0")["what_if"];
+    EXPECT_EQ(found["view"][0]["own_settings"]["nodes_that_differ"], 0);
+    EXPECT_EQ(found["view"][0]["own_settings"]["totals"]["max_triangles"],
+              found["view"][0]["engine"]["max_triangles"]);
+    EXPECT_TRUE(found["disagreement"].empty());
+}
+
+TEST_F(TraceCommand, comparesTwoTracesOfAFlight) {
+    fly();
+    const Ran again =
+        runWorldy(folder_,
+                  "fly planet.chk --flight flight.toml --frames 40 --size 320x200 --tau 4 --trace "
+                  "coarse.lodtrace -o coarse.json");
+    ASSERT_EQ(again.exitCode, 0) << again.errors;
+    const Ran same = runWorldy(folder_, "trace down.lodtrace down.lodtrace --json --max-differing 0");
+    EXPECT_EQ(same.exitCode, 0) << same.errors;
+    EXPECT_EQ(json::parse(same.output)["frames_that_differ"], 0);
+    EXPECT_TRUE(json::parse(same.output)["difference"].empty());
+    const Ran other = runWorldy(folder_, "trace down.lodtrace coarse.lodtrace --json");
+    EXPECT_EQ(other.exitCode, 0) << other.errors;
+    const json found = json::parse(other.output);
+    EXPECT_EQ(found["frames"], 40);
+    EXPECT_GT(found["frames_that_differ"], 0);
+    EXPECT_GT(found["view"][0]["a"]["max_triangles"], found["view"][0]["b"]["max_triangles"]);
+    const Ran limited = runWorldy(folder_, "trace down.lodtrace coarse.lodtrace --max-differing 0");
+    EXPECT_EQ(limited.exitCode, 1);
+    EXPECT_THAT(limited.errors, HasSubstr("expected at most 0"));
+    EXPECT_THAT(limited.output, HasSubstr("B alone draws"));
+    EXPECT_EQ(runWorldy(folder_, "trace down.lodtrace coarse.lodtrace --what-if 2").exitCode, 2);
+    EXPECT_EQ(runWorldy(folder_, "trace down.lodtrace --max-differing 2").exitCode, 2);
+}
+
 TEST_F(TraceCommand, refusesWhatIsNoTraceAndReplacesNothingElse) {
     bakePlanet(folder_);
     const Ran ran = runWorldy(folder_, "trace planet.chk");

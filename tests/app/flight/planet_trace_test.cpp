@@ -9,6 +9,7 @@
 #include "planet/measure/lod_changes.h"
 #include "planet/planet_tools.h"
 #include "planet/trace/trace_report.h"
+#include "planet/trace/trace_what_if.h"
 #include "tests/support/planet_fixture.h"
 #include "tests/support/temporary_folder.h"
 
@@ -57,7 +58,7 @@ ShownFrame shownFrame(const Planet& planet) {
 // Flies around the fake planet with a budget that is too small for it, so that blocks come and go.
 class PlanetTraces : public testing::Test {
 protected:
-    void fly(double tauPx = 1) {
+    void fly(double tauPx = 1, double fadeS = planet::LodSettings{}.fadeS) {
         planet::PagingSettings settings;
         settings.budgetBytes = planet::bytesOf(180);
         settings.time = planet::PagingTime::Simulated;
@@ -65,6 +66,7 @@ protected:
         planet_ = Planet::open(planet::fakePyramid().source(), settings).value();
         planet::LodSettings lod;
         lod.tauPx = tauPx;
+        lod.fadeS = fadeS;
         auto trace = PlanetTrace::create(file_, *planet_, "around");
         ASSERT_TRUE(trace) << trace.error().message;
         const std::uint64_t requestedBefore = planet_->paging().requested;
@@ -93,6 +95,12 @@ protected:
     planet::TraceReport report() const {
         auto file = planet::TraceFile::open(file_);
         return planet::reportOfTrace(*file, 16).value();
+    }
+
+    planet::TraceWhatIfReport whatIf(const std::vector<planet::TraceSelectorSettings>& settings,
+                                     const planet::TraceWhatIf::Watch& watch = {}) const {
+        auto file = planet::TraceFile::open(file_);
+        return planet::whatIfOfTrace(*file, settings, {}, watch).value();
     }
 
     const tests::TemporaryFolder folder_;
@@ -176,6 +184,38 @@ TEST_F(PlanetTraces, selectionOfWorldyHasNoFaultOfItsOwn) {
                     fault.kind == planet::TraceFaultKind::Thrash)
             << fault.sentence;
     }
+}
+
+// Worldy waits with splits and merges while it fades, so only without fades is each frame decided by errors alone.
+TEST_F(PlanetTraces, whatIfAtTheEnginesOwnSettingsDrawsWhatItDrew) {
+    fly(1, 0);
+    const planet::TraceWhatIfReport report = whatIf({});
+    EXPECT_EQ(report.frames, frames_.size());
+    EXPECT_EQ(report.skippedFrames, 0u);
+    ASSERT_EQ(report.views.size(), 1u);
+    const planet::TraceSelectionTotals &engine = report.views[0].engine, &own = report.views[0].own.totals;
+    EXPECT_EQ(own.frames, frames_.size());
+    EXPECT_EQ(report.views[0].own.framesThatDiffer, 0u);
+    EXPECT_EQ(report.views[0].own.nodesThatDiffer, 0u);
+    EXPECT_TRUE(report.disagreements.empty());
+    EXPECT_EQ(own.mostTriangles, engine.mostTriangles);
+    EXPECT_EQ(own.meanBytes, engine.meanBytes);
+    EXPECT_EQ(own.worstErrorPx, engine.worstErrorPx);
+    EXPECT_EQ(own.splits, engine.splits);
+    EXPECT_EQ(own.merges, engine.merges);
+    EXPECT_EQ(engine.splits, splits_);
+    EXPECT_EQ(engine.merges, merges_);
+    EXPECT_GT(splits_, 100u);
+    EXPECT_GT(own.waiting, 0u);
+}
+
+TEST_F(PlanetTraces, onlyFadesMakeWorldyDisagreeWithItsOwnErrors) {
+    fly();
+    const planet::TraceWhatIfReport report = whatIf({});
+    EXPECT_GT(report.disagreements.size(), 0u);
+    for (const planet::TraceDisagreement& each : report.disagreements)
+        EXPECT_TRUE(each.isFade) << each.sentence;
+    EXPECT_EQ(report.framesThatDisagree, 0u);
 }
 
 TEST_F(PlanetTraces, fileThatIsNoTraceIsKept) {

@@ -1,0 +1,180 @@
+#include "app/cli/trace_compare_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/base/text.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using planet::TraceComparison;
+using planet::TraceFrameDifference;
+using planet::TraceSelectionTotals;
+
+constexpr std::size_t idsInLine = 4;
+
+std::string idsText(const std::optional<planet::TraceDescription>& description,
+                    const std::vector<std::uint64_t>& ids, std::uint64_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(ids.size(), idsInLine); ++i)
+        text += fmt::format("{}{}", i == 0 ? "" : ", ",
+                            planet::traceIdText(description.value_or(planet::TraceDescription{}), ids[i]));
+    if (count > idsInLine) text += fmt::format(" and {} more", count - idsInLine);
+    return text.empty() ? "nothing" : text;
+}
+
+std::string pxText(double px) {
+    if (!std::isfinite(px)) return "-";
+    return px < 1e5 ? fmt::format("{:.2f}", px) : fmt::format("{:.2e}", px);
+}
+
+void printSide(const char* side, const TraceSelectionTotals& totals) {
+    fmt::print("{:>8}{:>9}{:>10.1f}{:>9}{:>12}{:>12}{:>9}{:>9}{:>10}{:>10}\n", side, totals.frames,
+               totals.meanDrawn, totals.mostDrawn, countText(totals.meanTriangles),
+               countText(static_cast<double>(totals.mostTriangles)), totals.splits, totals.merges,
+               pxText(totals.meanErrorPx), pxText(totals.worstErrorPx));
+}
+
+void printTimes(const char* name, const planet::TraceSpread& a, const planet::TraceSpread& b) {
+    if (a.count == 0 && b.count == 0) return;
+    const auto text = [](const planet::TraceSpread& ms) {
+        return ms.count == 0 ? std::string("not told")
+                             : fmt::format("{}, 99 % at most {}", millisecondsText(ms.median),
+                                           millisecondsText(ms.p99));
+    };
+    fmt::print("{:<10}A median {}; B median {}\n", name, text(a), text(b));
+}
+
+void printDifference(const TraceComparison& found, const TraceFrameDifference& each) {
+    fmt::print("  frame {}{}, view {}: A alone draws {}; B alone draws {}; {} and {} nodes, {} and {} px\n",
+               each.frameA, each.frameB == each.frameA ? "" : fmt::format(" ({} of B)", each.frameB),
+               each.view, idsText(found.descriptionA, each.nodesA, each.onlyInA),
+               idsText(found.descriptionB, each.nodesB, each.onlyInB), each.drawnA, each.drawnB,
+               pxText(each.worstErrorPxA), pxText(each.worstErrorPxB));
+}
+
+Json knownOrNull(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json jsonOf(const TraceSelectionTotals& totals) {
+    return {{"mean_drawn", totals.meanDrawn},
+            {"max_drawn", totals.mostDrawn},
+            {"mean_triangles", totals.meanTriangles},
+            {"max_triangles", totals.mostTriangles},
+            {"mean_bytes", totals.meanBytes},
+            {"max_bytes", totals.mostBytes},
+            {"splits", totals.splits},
+            {"merges", totals.merges},
+            {"mean_error_px", knownOrNull(totals.meanErrorPx)},
+            {"max_error_px", knownOrNull(totals.worstErrorPx)}};
+}
+
+Json jsonOf(const planet::TraceSpread& spread) {
+    return {{"count", spread.count},
+            {"median", knownOrNull(spread.median)},
+            {"p99", knownOrNull(spread.p99)},
+            {"max", knownOrNull(spread.most)}};
+}
+
+Json idsJson(const std::optional<planet::TraceDescription>& description,
+             const std::vector<std::uint64_t>& ids) {
+    Json json = Json::array();
+    for (const std::uint64_t id : ids)
+        json.push_back(planet::traceIdText(description.value_or(planet::TraceDescription{}), id));
+    return json;
+}
+
+Json jsonOf(const TraceComparison& found, const TraceFrameDifference& each) {
+    return {{"frame_a", each.frameA},
+            {"frame_b", each.frameB},
+            {"time_s", each.timeS},
+            {"view", each.view},
+            {"drawn_a", each.drawnA},
+            {"drawn_b", each.drawnB},
+            {"triangles_a", each.trianglesA},
+            {"triangles_b", each.trianglesB},
+            {"max_error_px_a", knownOrNull(each.worstErrorPxA)},
+            {"max_error_px_b", knownOrNull(each.worstErrorPxB)},
+            {"only_in_a", each.onlyInA},
+            {"only_in_b", each.onlyInB},
+            {"nodes_a", idsJson(found.descriptionA, each.nodesA)},
+            {"nodes_b", idsJson(found.descriptionB, each.nodesB)}};
+}
+
+}  // namespace
+
+void printTraceComparison(const std::array<std::string, 2>& files, const TraceComparison& found, int worst) {
+    fmt::print("A {}\nB {}\n{} frames are in both, {} only in A, {} only in B\n", files[0], files[1],
+               found.frames, found.framesOnlyInA, found.framesOnlyInB);
+    if (found.frames == 0)
+        fmt::print("No frame has the same time in both. --match number matches frames by their numbers.\n");
+    if (found.skippedFrames > 0)
+        fmt::print("{} frames lack events in one of the two, and are not compared\n", found.skippedFrames);
+    printTimes("CPU time", found.cpuMsA, found.cpuMsB);
+    printTimes("GPU time", found.gpuMsA, found.gpuMsB);
+    for (const planet::TraceViewComparison& view : found.views) {
+        fmt::print("\n{:>8}{:>9}{:>10}{:>9}{:>12}{:>12}{:>9}{:>9}{:>10}{:>10}\n",
+                   fmt::format("view {}", view.view), "frames", "drawn", "most", "triangles", "most",
+                   "splits", "merges", "error px", "most");
+        printSide("A", view.a);
+        printSide("B", view.b);
+        if (view.framesThatDiffer > 0)
+            fmt::print("{} frames differ; over all frames, {} nodes are only in A and {} only in B\n",
+                       view.framesThatDiffer, view.onlyInA, view.onlyInB);
+    }
+    if (found.framesThatDiffer == 0) {
+        if (found.frames > found.skippedFrames) fmt::print("\nBoth draw the same nodes in all frames.\n");
+        return;
+    }
+    fmt::print("\n{} of {} frames differ. The first one:\n", found.framesThatDiffer, found.frames);
+    printDifference(found, found.differences.front());
+    std::vector<const TraceFrameDifference*> largest;
+    for (const TraceFrameDifference& each : found.differences) largest.push_back(&each);
+    std::ranges::stable_sort(largest, std::greater(),
+                             [](const auto* each) { return each->onlyInA + each->onlyInB; });
+    largest.resize(std::min(largest.size(), static_cast<std::size_t>(worst)));
+    if (found.differences.size() > 1 && !largest.empty())
+        fmt::print("Those with the most different nodes:\n");
+    if (found.differences.size() > 1)
+        for (const TraceFrameDifference* each : largest) printDifference(found, *each);
+}
+
+Json traceComparisonJson(const std::array<std::string, 2>& files, const TraceComparison& found) {
+    Json json = {{"file_a", files[0]},
+                 {"file_b", files[1]},
+                 {"frames", found.frames},
+                 {"frames_only_in_a", found.framesOnlyInA},
+                 {"frames_only_in_b", found.framesOnlyInB},
+                 {"skipped_frames", found.skippedFrames},
+                 {"frames_that_differ", found.framesThatDiffer},
+                 {"cpu_ms_a", jsonOf(found.cpuMsA)},
+                 {"cpu_ms_b", jsonOf(found.cpuMsB)},
+                 {"gpu_ms_a", jsonOf(found.gpuMsA)},
+                 {"gpu_ms_b", jsonOf(found.gpuMsB)}};
+    json["view"] = Json::array();
+    for (const planet::TraceViewComparison& view : found.views)
+        json["view"].push_back({{"view", view.view},
+                                {"frames", view.frames},
+                                {"frames_that_differ", view.framesThatDiffer},
+                                {"only_in_a", view.onlyInA},
+                                {"only_in_b", view.onlyInB},
+                                {"a", jsonOf(view.a)},
+                                {"b", jsonOf(view.b)}});
+    json["difference"] = Json::array();
+    for (const TraceFrameDifference& each : found.differences)
+        json["difference"].push_back(jsonOf(found, each));
+    json["unlisted_differences"] = found.unlistedDifferences;
+    json["problem_a"] = found.problemA ? Json(*found.problemA) : Json(nullptr);
+    json["problem_b"] = found.problemB ? Json(*found.problemB) : Json(nullptr);
+    return json;
+}
+
+}  // namespace worldy
