@@ -176,7 +176,7 @@ TEST_F(PlanetTraces, reportCountsTheChangesThatThePanelCounts) {
 }
 
 TEST_F(PlanetTraces, selectionOfWorldyHasNoFaultOfItsOwn) {
-    fly();
+    fly(1, 0);  // a fade holds a split back for longer than the finder allows a selection to wait
     for (const planet::TraceFault& fault : report().faults) {
         EXPECT_TRUE(fault.kind == planet::TraceFaultKind::Starvation ||
                     fault.kind == planet::TraceFaultKind::LatePage ||
