@@ -115,7 +115,10 @@ std::array<std::uint8_t, 4> colourBytes(const glm::vec3& colour, std::uint8_t op
 glm::vec3 levelColour(int level) {
     const auto index = static_cast<std::size_t>(std::max(level, 0));
     const glm::vec3 colour = fromHex(hues[index % hues.size()]);
-    return index < hues.size() ? colour : glm::mix(colour, glm::vec3(1), 0.45f);
+    if (index < hues.size()) return colour;
+    // More would make neighbouring levels look alike.
+    constexpr float share = 0.25f;
+    return glm::mix(colour, glm::vec3(index < 2 * hues.size() ? 1 : 0), share);
 }
 
 glm::vec3 errorColour(double epsOverTau) {
