@@ -27,7 +27,7 @@ struct TraceLimits {
         disagreeing;  // frames in which the engine's choice is not what its own numbers say, >= 0
 };
 
-// What if: selections with other settings over the same frames.
+// Selects again over the same frames, with other settings.
 struct TraceWhatIfOptions {
     std::vector<double> tausPx{};                // > 0; empty, and no goal: nothing is selected again
     planet::TraceSelectorSettings settings{};    // all but τ

@@ -13,7 +13,7 @@ namespace worldy {
 // Parses "error_px=1.5,bytes_mb=16,triangles=100000", one of them or more, each > 0; a MB is 10^6 bytes.
 planet::Result<planet::TraceTauGoal> traceTauGoalFromText(const std::string& text);
 
-// What was found. Either part can be missing.
+// The findings. Either part can be missing.
 struct TraceWhatIfFound {
     planet::TraceWhatIfReport report{};
     planet::TraceTauGoal goal{};

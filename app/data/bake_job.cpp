@@ -104,7 +104,7 @@ Result<planet::BakeReport> BakeJob::bakeOpened(const std::stop_token& stop, cons
         const auto onFirst = [&](const planet::BakeProgress&) { return goOn(); };
         const Result<planet::BakeReport> first = bakeWithColour(
             heights, task.firstLook->settings, task.firstLook->output, onFirst, task.colour, colourProblem);
-        // What is wrong with the first look is wrong with the whole bake too, which then says so.
+        // An Error of the first look is one of the whole bake too, which then reports it.
         const std::lock_guard lock(mutex_);
         firstLookIsBaked_ = first.has_value();
     }

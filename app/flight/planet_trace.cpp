@@ -151,7 +151,7 @@ void PlanetTrace::tellPaging(planet::Planet& planet) {
         lod_trace_started(trace, idOf(block.parent), static_cast<int>(block.kind));
     const std::deque<planet::PagingEvent>& history = planet.inspect().pagingHistory();
     const std::uint64_t events = planet.inspect().pagingEventCount();
-    // Of more events than the planet keeps, the first are not known.
+    // If there are more events than the planet keeps, the first are not known.
     const auto fresh = std::min<std::uint64_t>(events - eventsBefore_, history.size());
     eventsBefore_ = events;
     for (auto event = history.end() - static_cast<std::ptrdiff_t>(fresh); event != history.end(); ++event) {

@@ -39,7 +39,7 @@ public:
     planet::Result<void> finish(planet::Planet& planet);
 
 private:
-    // What was told of a chunk, to tell it again if it changes.
+    // The values that were told of a chunk. It is told again if they change.
     struct Told {
         float errorM = 0;
         float maxHeightM = 0;

@@ -93,13 +93,13 @@ typedef struct lod_trace lod_trace;
 // The world's shape.
 enum { LOD_TRACE_FLAT = 0, LOD_TRACE_SPHERE = 1 };
 
-// What the 64 bits of a node's id say.
+// The meaning of the 64 bits of a node's id.
 enum {
     LOD_TRACE_IDS_OPAQUE = 0,   // only that different nodes have different ids
     LOD_TRACE_IDS_QUADTREE = 1  // face, level, x and y, as lod_trace_quadtree_id packs them
 };
 
-// What lod_trace_node_info::error says.
+// The unit of lod_trace_node_info::error.
 enum {
     LOD_TRACE_ERROR_WORLD = 0,  // a distance in world units; on screen it is error * K' / D, see below
     LOD_TRACE_ERROR_PIXELS = 1  // pixels on screen already
@@ -107,7 +107,7 @@ enum {
 // D is the distance from the eye to the node's bounds, and K' the pixels that a unit covers at a distance of a unit:
 // K' = |projection[0]| * viewport width / 2, which is W / (2 tan(Hfov / 2)) for a symmetric perspective.
 
-// What a request loads.
+// The nodes that a request loads.
 enum {
     LOD_TRACE_REQUESTS_NODE = 0,  // the node that it names
     LOD_TRACE_REQUESTS_CHILDREN =

@@ -1,4 +1,4 @@
-// What a trace tells, event by event, as plain data. lod_trace.h writes traces, trace_reader.h and trace_index.h read them.
+// The events of a trace, as plain data. lod_trace.h writes traces, trace_reader.h and trace_index.h read them.
 // The comments of lod_trace.h state units and coordinate conventions. Values are as the engine told them: a number may be
 // infinite or not a number.
 #pragma once
@@ -84,7 +84,7 @@ using TraceNameIndex = std::uint32_t;
 struct TraceRestarted {
     bool operator==(const TraceRestarted&) const = default;
 };
-// What was set and paged before is void: settings, names of threads, and the state of all data that is not Absent follow.
+// Earlier settings and paging are void: settings, names of threads, and the state of all data that is not Absent follow.
 struct TraceKey {
     std::uint64_t frame = 0;
     std::uint64_t ns = 0;
