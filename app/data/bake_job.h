@@ -47,7 +47,7 @@ struct BakeTask {
     // Baked first. It is left out if the whole bake has so few samples that it is there as soon.
     std::optional<FirstLook> firstLook{};
     std::optional<planet::HeightSource>
-        opened{};  // the source, if it is open already; it is read anew otherwise
+        opened{};  // the source if it is open already; otherwise the bake reads it
 };
 
 // Bakes of up to this many samples, which take a few seconds, have no first look.
