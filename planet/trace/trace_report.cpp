@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planet/base/percentile.h"
 #include "planet/base/try.h"
 
 namespace planet {
@@ -49,14 +50,9 @@ TraceSpread spreadOf(std::vector<float>& values) {
     std::erase_if(values, [](float value) { return std::isnan(value); });
     spread.count = values.size();
     if (values.empty()) return spread;
-    std::ranges::sort(values);
-    const auto at = [&](double share) {
-        const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-        return static_cast<double>(values[std::clamp<std::size_t>(rank, 1, values.size()) - 1]);
-    };
-    spread.median = at(0.5);
-    spread.p99 = at(0.99);
-    spread.most = static_cast<double>(values.back());
+    spread.median = static_cast<double>(percentileOf(values, 0.5));
+    spread.p99 = static_cast<double>(percentileOf(values, 0.99));
+    spread.most = static_cast<double>(percentileOf(values, 1));
     return spread;
 }
 

@@ -25,7 +25,7 @@ struct TraceSpread {
     double p99 = std::numeric_limits<double>::quiet_NaN();  // 99 % of the values are at most this
     double most = std::numeric_limits<double>::quiet_NaN();
 };
-// Sorts the values. The median and the 99th percentile are values of the list (nearest rank).
+// Reorders the values. The median and the 99th percentile are values of the list (percentile.h).
 TraceSpread spreadOf(std::vector<float>& values);
 
 struct TraceViewReport {
