@@ -171,7 +171,7 @@ void TraceFaultFinder::add(const TraceState& state) {
     const TraceFrame& frame = state.frame();
     findLate(state);
     if (!frame.isComplete()) {
-        // What a view drew is not known, so nothing in the next frame is a change.
+        // It is not known what a view drew, so nothing in the next frame is a change.
         views_.clear();
         return;
     }

@@ -11,7 +11,7 @@
 // | TooCoarse      | nodes exceed τ for long although their children's data is there: selection ignores its own τ         |
 // | TooFine        | most drawn nodes have a parent that would do: selection ignores its own τ                            |
 //
-// What the engine does not tell is not judged: without views no Hole, without τ no Starvation, TooCoarse and TooFine, without
+// A trace is judged only by what the engine tells: without views no Hole, without τ no Starvation, TooCoarse and TooFine, without
 // bounds or ids no LevelStep, without parents nothing but LatePage. A frame that lost events is not judged.
 #pragma once
 
@@ -99,7 +99,7 @@ private:
         int reversals = 0;
         std::uint64_t firstFrame = 0;
     };
-    // What a view drew, by node: stamps are frames_ of the last frame in which it holds.
+    // The drawn nodes of a view, by node: stamps are frames_ of the last frame in which it holds.
     struct ViewMemory {
         std::vector<std::uint32_t> drawn, below;              // below: a descendant is drawn
         std::vector<std::uint32_t> drawnBefore, belowBefore;  // of the frame before

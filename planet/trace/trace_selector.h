@@ -4,7 +4,7 @@
 // τ (1 - hysteresis), as lod_select.h does it, but without fades and without limits of seams. It is drawn itself while the
 // data of its children is not there.
 //
-// What is approximate:
+// These parts are approximate:
 // - Nodes that the engine culled stay culled, and so do those that it neither drew nor split beside nodes that it did. Only
 //   below the nodes that it drew are bounds compared with the frustum and with a horizon of the world's radius. They are
 //   culled if all of the bounds lies outside; terrain below the radius can be seen beyond that horizon.
@@ -29,7 +29,7 @@
 
 namespace planet {
 
-// What the engine drew in one view of a frame. One thread at a time.
+// Holds what the engine drew in one view of a frame. One thread at a time.
 class TraceEngineFrame {
 public:
     // Takes a view of state.frame(). described: by node, whether its description came before this frame for certain; empty:

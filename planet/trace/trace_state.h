@@ -22,7 +22,7 @@ inline constexpr std::size_t maxTraceChildren = 4096;
 // The state of a node's data of one kind.
 struct TraceDataState {
     TraceData data = TraceData::Absent;
-    // Of Requested and Started: when it was requested. The engine's time and the frame are 0 and NaN if the stream began later.
+    // The time of the request, in the states Requested and Started. The engine's time and the frame are 0 and NaN if the stream began later.
     std::uint64_t requestedNs = 0;
     std::uint64_t startedNs = 0;  // of Started
     double requestedS = std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,4 @@
-// What if: selects again over a whole trace, with other settings, and compares the cost and the error with what the engine
+// Selects again over a whole trace, with other settings, and compares the cost and the error with what the engine
 // did. With the engine's own settings it finds where the engine's choice is not what its own numbers say. trace_selector.h
 // selects, and says what is approximate.
 #pragma once

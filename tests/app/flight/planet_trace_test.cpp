@@ -1,4 +1,4 @@
-// What a tool reads from a trace of Worldy equals what Worldy's own panels show.
+// A tool reads from a trace of Worldy what Worldy's own panels show.
 #include "app/flight/planet_trace.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct ShownChunk {
     bool operator==(const ShownChunk&) const = default;
 };
 
-// What the panels show of a frame.
+// The numbers that the panels show of a frame.
 struct ShownFrame {
     std::map<std::uint64_t, ShownChunk> drawn;
     std::uint64_t loaded = 0;

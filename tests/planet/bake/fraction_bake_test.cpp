@@ -215,7 +215,7 @@ TEST_F(FractionBake, aPlanetAroundLidarCostsHardlyMoreThanBothAlone) {
     RecordProperty("insetBytes", std::to_string(insetBytes));
     EXPECT_GT(lidarBytes, 300'000);
     EXPECT_LE(insetBytes, 1.1 * lidarBytes);
-    // What lies above costs what it costs without fractions.
+    // The levels above cost as much as without fractions.
     EXPECT_LE(bytesOfLevels(file, 0, planetLevel),
               1.001 * bytesOfLevels(opened("coarse.chk"), 0, planetLevel));
 }
