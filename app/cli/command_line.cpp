@@ -20,6 +20,7 @@
 
 #include "app/base/exit_code.h"
 #include "app/cli/app.h"
+#include "app/cli/attach_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/bake_command.h"
 #include "app/cli/bench_command.h"
@@ -347,6 +348,18 @@ void addTrace(CLI::App& command, TraceCommandOptions& options, TraceTexts& texts
         ->check(number(0, 1e6));
 }
 
+void addAttach(CLI::App& command, AttachOptions& options) {
+    command.add_option("PORT", options.port, "Port of this machine at which the engine listens")
+        ->required()
+        ->check(CLI::Range(1, 65535));
+    command.add_option(
+        "-o,--output,--out", options.out,
+        "New file to write, .lodtrace, or folder for engine-PORT.lodtrace (the current folder)");
+    command.add_option("--seconds", options.seconds, "End after this time, s (never)")
+        ->check(number(0, 1e9, false));
+    command.add_flag("--once", options.isOnce, "End when the engine leaves");
+}
+
 void addSettings(CLI::App& command, SettingsCommandOptions& options) {
     command.add_flag("--table", options.table, "Print a Markdown table")->excludes("--json");
 }
@@ -560,6 +573,7 @@ struct CommandLine {
     SettingsCommandOptions settings;
     TraceCommandOptions trace;
     TraceTexts traceTexts;
+    AttachOptions attach;
     std::map<std::string_view, SharedTexts> shared;  // by command; map nodes do not move
     std::vector<std::filesystem::path> moreInputs;   // files read besides those in the options
 
@@ -596,6 +610,7 @@ struct CommandLine {
         addMakeLayers(at("make-layers"), makeLayers);
         addSettings(at("settings"), settings);
         addTrace(at("trace"), trace, traceTexts);
+        addAttach(at("attach"), attach);
         app.require_subcommand(0, 1);
     }
     // Copies the shared options of a command into its own. Returns the settings.
@@ -696,6 +711,7 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"settings", command("settings", line.settings, runSettings, ready)},
         {"trace", command("trace", line.trace, runTrace,
                           [&](const Settings&) { return finish(line.trace, line.traceTexts); })},
+        {"attach", command("attach", line.attach, runAttach, ready)},
         {"compare", command("compare", line.compare, runCompare,
                             [&](const Settings&) {
                                 for (const SideTexts& side : line.compareTexts)

@@ -26,7 +26,7 @@ constexpr FlightSampling everySeconds(double seconds) {
 }
 constexpr const char* reportHelp = "Report to write, JSON";
 
-constexpr std::array<CommandSpec, 17> commandTable = {{
+constexpr std::array<CommandSpec, 18> commandTable = {{
     {.name = "bake",
      .about = "Bake elevation images or rasters, a world file, six cube faces or procedural terrain into a "
               "chunk file",
@@ -99,6 +99,10 @@ constexpr std::array<CommandSpec, 17> commandTable = {{
      .takes = takes::json | takes::output | takes::worst,
      .output = reportHelp,
      .worst = "Faults"},
+    {.name = "attach",
+     .about = "Attach to a running engine that traces itself, and write its trace into a file until Ctrl+C; "
+              "exits with 1 if no trace came",
+     .takes = takes::json},
     {.name = "settings",
      .about = "Print all settings with their defaults as a settings file, as a Markdown table, or as JSON",
      .takes = takes::json},

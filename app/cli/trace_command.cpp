@@ -12,6 +12,7 @@
 #include "app/base/message.h"
 #include "app/base/text.h"
 #include "app/cli/trace_compare_text.h"
+#include "app/cli/trace_text.h"
 #include "app/cli/trace_what_if_text.h"
 
 namespace worldy {
@@ -26,15 +27,6 @@ constexpr std::array faultKinds = {planet::TraceFaultKind::DrawnTwice, planet::T
                                    planet::TraceFaultKind::Thrash,     planet::TraceFaultKind::LatePage,
                                    planet::TraceFaultKind::Starvation, planet::TraceFaultKind::LevelStep,
                                    planet::TraceFaultKind::TooCoarse,  planet::TraceFaultKind::TooFine};
-
-// Returns null for what is not known, which JSON cannot represent as a number.
-Json tracedOrNull(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-std::string idText(const TraceReport& report, std::uint64_t id) {
-    return planet::traceIdText(report.description.value_or(planet::TraceDescription{}), id);
-}
 
 // Returns the faults of a kind.
 std::size_t countOf(const TraceReport& report, planet::TraceFaultKind kind) {
@@ -85,14 +77,16 @@ void printViews(const TraceReport& report) {
                "worst at");
     for (const planet::TraceViewReport& view : report.views) {
         const bool hasError = std::isfinite(view.worstErrorPx);
-        fmt::print(
-            "{:>5}{:>9}{:>9.1f}{:>9}{:>12}{:>9}{:>9}{:>9}{:>10}{:>8}{:>10}  {}\n", view.view, view.frames,
-            view.meanDrawn, view.mostDrawn,
-            view.mostTriangles == 0 ? "-" : countText(static_cast<double>(view.mostTriangles)), view.splits,
-            view.merges, view.thrashes, hasError ? fmt::format("{:.2f}", view.worstErrorPx) : "-",
-            view.tauPx ? fmt::format("{:g}", *view.tauPx) : "-",
-            view.tauPx ? fmt::format("{}", view.framesOverTau) : "-",
-            hasError ? fmt::format("frame {}, {}", view.worstFrame, idText(report, view.worstNode)) : "");
+        fmt::print("{:>5}{:>9}{:>9.1f}{:>9}{:>12}{:>9}{:>9}{:>9}{:>10}{:>8}{:>10}  {}\n", view.view,
+                   view.frames, view.meanDrawn, view.mostDrawn,
+                   view.mostTriangles == 0 ? "-" : countText(static_cast<double>(view.mostTriangles)),
+                   view.splits, view.merges, view.thrashes,
+                   hasError ? fmt::format("{:.2f}", view.worstErrorPx) : "-",
+                   view.tauPx ? fmt::format("{:g}", *view.tauPx) : "-",
+                   view.tauPx ? fmt::format("{}", view.framesOverTau) : "-",
+                   hasError ? fmt::format("frame {}, {}", view.worstFrame,
+                                          tracedNodeText(report.description, view.worstNode))
+                            : "");
     }
 }
 
@@ -138,9 +132,9 @@ void printFaults(const TraceReport& report, int worst) {
 
 Json jsonOf(const planet::TraceSpread& spread, double factor) {
     return {{"count", spread.count},
-            {"median", tracedOrNull(factor * spread.median)},
-            {"p99", tracedOrNull(factor * spread.p99)},
-            {"max", tracedOrNull(factor * spread.most)}};
+            {"median", tracedNumberJson(factor * spread.median)},
+            {"p99", tracedNumberJson(factor * spread.p99)},
+            {"max", tracedNumberJson(factor * spread.most)}};
 }
 
 Json jsonOf(const TraceReport& report, const planet::TraceViewReport& view) {
@@ -152,10 +146,10 @@ Json jsonOf(const TraceReport& report, const planet::TraceViewReport& view) {
                  {"splits", view.splits},
                  {"merges", view.merges},
                  {"thrashes", view.thrashes},
-                 {"max_error_px", tracedOrNull(view.worstErrorPx)}};
+                 {"max_error_px", tracedNumberJson(view.worstErrorPx)}};
     if (std::isfinite(view.worstErrorPx)) {
         json["max_error_frame"] = view.worstFrame;
-        json["max_error_node"] = idText(report, view.worstNode);
+        json["max_error_node"] = tracedNodeText(report.description, view.worstNode);
     }
     json["tau_px"] = view.tauPx ? Json(*view.tauPx) : Json(nullptr);
     json["frames_over_tau"] = view.tauPx ? Json(view.framesOverTau) : Json(nullptr);
@@ -181,10 +175,10 @@ Json jsonOf(const TraceReport& report, const planet::TraceFault& fault) {
                  {"last_frame", fault.lastFrame},
                  {"frames", fault.frames}};
     if (fault.view >= 0) json["view"] = fault.view;
-    json["node"] = idText(report, fault.node);
-    if (fault.hasOther) json["other"] = idText(report, fault.other);
-    json["value"] = tracedOrNull(fault.value);
-    json["limit"] = tracedOrNull(fault.limit);
+    json["node"] = tracedNodeText(report.description, fault.node);
+    if (fault.hasOther) json["other"] = tracedNodeText(report.description, fault.other);
+    json["value"] = tracedNumberJson(fault.value);
+    json["limit"] = tracedNumberJson(fault.limit);
     json["sentence"] = fault.sentence;
     return json;
 }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/base/text.h"
+#include "app/cli/trace_text.h"
 
 namespace worldy {
 
@@ -24,22 +24,16 @@ std::string idsText(const std::optional<planet::TraceDescription>& description,
                     const std::vector<std::uint64_t>& ids, std::uint64_t count) {
     std::string text;
     for (std::size_t i = 0; i < std::min(ids.size(), idsInLine); ++i)
-        text += fmt::format("{}{}", i == 0 ? "" : ", ",
-                            planet::traceIdText(description.value_or(planet::TraceDescription{}), ids[i]));
+        text += fmt::format("{}{}", i == 0 ? "" : ", ", tracedNodeText(description, ids[i]));
     if (count > idsInLine) text += fmt::format(" and {} more", count - idsInLine);
     return text.empty() ? "nothing" : text;
-}
-
-std::string pxText(double px) {
-    if (!std::isfinite(px)) return "-";
-    return px < 1e5 ? fmt::format("{:.2f}", px) : fmt::format("{:.2e}", px);
 }
 
 void printSide(const char* side, const TraceSelectionTotals& totals) {
     fmt::print("{:>8}{:>9}{:>10.1f}{:>9}{:>12}{:>12}{:>9}{:>9}{:>10}{:>10}\n", side, totals.frames,
                totals.meanDrawn, totals.mostDrawn, countText(totals.meanTriangles),
                countText(static_cast<double>(totals.mostTriangles)), totals.splits, totals.merges,
-               pxText(totals.meanErrorPx), pxText(totals.worstErrorPx));
+               tracedPxText(totals.meanErrorPx), tracedPxText(totals.worstErrorPx));
 }
 
 void printTimes(const char* name, const planet::TraceSpread& a, const planet::TraceSpread& b) {
@@ -57,38 +51,20 @@ void printDifference(const TraceComparison& found, const TraceFrameDifference& e
                each.frameA, each.frameB == each.frameA ? "" : fmt::format(" ({} of B)", each.frameB),
                each.view, idsText(found.descriptionA, each.nodesA, each.onlyInA),
                idsText(found.descriptionB, each.nodesB, each.onlyInB), each.drawnA, each.drawnB,
-               pxText(each.worstErrorPxA), pxText(each.worstErrorPxB));
-}
-
-Json knownOrNull(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json jsonOf(const TraceSelectionTotals& totals) {
-    return {{"mean_drawn", totals.meanDrawn},
-            {"max_drawn", totals.mostDrawn},
-            {"mean_triangles", totals.meanTriangles},
-            {"max_triangles", totals.mostTriangles},
-            {"mean_bytes", totals.meanBytes},
-            {"max_bytes", totals.mostBytes},
-            {"splits", totals.splits},
-            {"merges", totals.merges},
-            {"mean_error_px", knownOrNull(totals.meanErrorPx)},
-            {"max_error_px", knownOrNull(totals.worstErrorPx)}};
+               tracedPxText(each.worstErrorPxA), tracedPxText(each.worstErrorPxB));
 }
 
 Json jsonOf(const planet::TraceSpread& spread) {
     return {{"count", spread.count},
-            {"median", knownOrNull(spread.median)},
-            {"p99", knownOrNull(spread.p99)},
-            {"max", knownOrNull(spread.most)}};
+            {"median", tracedNumberJson(spread.median)},
+            {"p99", tracedNumberJson(spread.p99)},
+            {"max", tracedNumberJson(spread.most)}};
 }
 
 Json idsJson(const std::optional<planet::TraceDescription>& description,
              const std::vector<std::uint64_t>& ids) {
     Json json = Json::array();
-    for (const std::uint64_t id : ids)
-        json.push_back(planet::traceIdText(description.value_or(planet::TraceDescription{}), id));
+    for (const std::uint64_t id : ids) json.push_back(tracedNodeText(description, id));
     return json;
 }
 
@@ -101,8 +77,8 @@ Json jsonOf(const TraceComparison& found, const TraceFrameDifference& each) {
             {"drawn_b", each.drawnB},
             {"triangles_a", each.trianglesA},
             {"triangles_b", each.trianglesB},
-            {"max_error_px_a", knownOrNull(each.worstErrorPxA)},
-            {"max_error_px_b", knownOrNull(each.worstErrorPxB)},
+            {"max_error_px_a", tracedNumberJson(each.worstErrorPxA)},
+            {"max_error_px_b", tracedNumberJson(each.worstErrorPxB)},
             {"only_in_a", each.onlyInA},
             {"only_in_b", each.onlyInB},
             {"nodes_a", idsJson(found.descriptionA, each.nodesA)},
@@ -166,8 +142,8 @@ Json traceComparisonJson(const std::array<std::string, 2>& files, const TraceCom
                                 {"frames_that_differ", view.framesThatDiffer},
                                 {"only_in_a", view.onlyInA},
                                 {"only_in_b", view.onlyInB},
-                                {"a", jsonOf(view.a)},
-                                {"b", jsonOf(view.b)}});
+                                {"a", traceTotalsJson(view.a, found.descriptionA)},
+                                {"b", traceTotalsJson(view.b, found.descriptionB)}});
     json["difference"] = Json::array();
     for (const TraceFrameDifference& each : found.differences)
         json["difference"].push_back(jsonOf(found, each));

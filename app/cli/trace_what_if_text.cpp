@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "app/base/text.h"
+#include "app/cli/trace_text.h"
 
 namespace worldy {
 
@@ -24,19 +24,6 @@ using planet::TraceWhatIfRow;
 constexpr double bytesOfMb = 1e6;
 constexpr std::array residencyNames = {"all", "traced", "disk"};
 
-Json finiteOrNull(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-std::string errorText(double px) {
-    if (!std::isfinite(px)) return "-";
-    return px < 1e5 ? fmt::format("{:.2f}", px) : fmt::format("{:.2e}", px);
-}
-
-std::string idTextOf(const TraceWhatIfReport& report, std::uint64_t id) {
-    return planet::traceIdText(report.description.value_or(planet::TraceDescription{}), id);
-}
-
 void printTotals(const std::string& name, const char* mark, const TraceSelectionTotals& totals,
                  const TraceWhatIfRow* row) {
     const auto count = [](double value) { return value == 0 ? std::string("-") : countText(value); };
@@ -45,8 +32,8 @@ void printTotals(const std::string& name, const char* mark, const TraceSelection
                name, mark, totals.meanDrawn, totals.mostDrawn, count(totals.meanTriangles),
                count(static_cast<double>(totals.mostTriangles)), bytes(totals.meanBytes),
                bytes(static_cast<double>(totals.mostBytes)), totals.splits, totals.merges,
-               errorText(totals.meanErrorPx), errorText(totals.worstErrorPx), totals.unknown, totals.waiting,
-               row ? fmt::format("{}", row->framesThatDiffer) : "-",
+               tracedPxText(totals.meanErrorPx), tracedPxText(totals.worstErrorPx), totals.unknown,
+               totals.waiting, row ? fmt::format("{}", row->framesThatDiffer) : "-",
                row ? fmt::format("{}", row->nodesThatDiffer) : "-");
 }
 
@@ -114,29 +101,6 @@ void printSuggestion(const planet::TraceTauGoal& goal, const planet::TraceTauSug
                found.isBound ? "; a bound, because some nodes are unknown" : "");
 }
 
-Json jsonOf(const TraceWhatIfReport& report, const TraceSelectionTotals& totals) {
-    Json json = {{"frames", totals.frames},
-                 {"mean_drawn", totals.meanDrawn},
-                 {"max_drawn", totals.mostDrawn},
-                 {"mean_triangles", totals.meanTriangles},
-                 {"max_triangles", totals.mostTriangles},
-                 {"mean_bytes", totals.meanBytes},
-                 {"max_bytes", totals.mostBytes},
-                 {"splits", totals.splits},
-                 {"merges", totals.merges},
-                 {"mean_error_px", finiteOrNull(totals.meanErrorPx)},
-                 {"max_error_px", finiteOrNull(totals.worstErrorPx)}};
-    if (std::isfinite(totals.worstErrorPx)) {
-        json["max_error_frame"] = totals.worstFrame;
-        json["max_error_node"] = idTextOf(report, totals.worstNode);
-    }
-    json["unknown_nodes"] = totals.unknown;
-    json["unknown_frames"] = totals.unknownFrames;
-    json["waiting_nodes"] = totals.waiting;
-    json["limited_nodes"] = totals.limited;
-    return json;
-}
-
 Json jsonOf(const TraceWhatIfReport& report, const TraceWhatIfRow& row) {
     const planet::TraceSelectorSettings& settings = row.settings;
     Json json = {{"tau_px", settings.tauPx ? Json(*settings.tauPx) : Json(nullptr)},
@@ -145,9 +109,9 @@ Json jsonOf(const TraceWhatIfReport& report, const TraceWhatIfRow& row) {
                  {"data", residencyNames[static_cast<std::size_t>(settings.residency)]}};
     if (settings.residency == planet::TraceResidency::Disk)
         json["disk"] = {{"latency_ms", 1000 * settings.disk.latencyS},
-                        {"mb_per_s", finiteOrNull(settings.disk.bytesPerS / bytesOfMb)},
+                        {"mb_per_s", tracedNumberJson(settings.disk.bytesPerS / bytesOfMb)},
                         {"loaders", settings.disk.loaders}};
-    json["totals"] = jsonOf(report, row.totals);
+    json["totals"] = traceTotalsJson(row.totals, report.description);
     json["frames_that_differ"] = row.framesThatDiffer;
     json["nodes_that_differ"] = row.nodesThatDiffer;
     return json;
@@ -156,11 +120,11 @@ Json jsonOf(const TraceWhatIfReport& report, const TraceWhatIfRow& row) {
 Json jsonOf(const TraceWhatIfReport& report, const planet::TraceDisagreement& each) {
     return {{"kind", each.kind == planet::TraceDisagreementKind::TooCoarse ? "too coarse" : "too fine"},
             {"view", each.view},
-            {"node", idTextOf(report, each.node)},
+            {"node", tracedNodeText(report.description, each.node)},
             {"first_frame", each.firstFrame},
             {"last_frame", each.lastFrame},
             {"frames", each.frames},
-            {"error_px", finiteOrNull(each.errorPx)},
+            {"error_px", tracedNumberJson(each.errorPx)},
             {"limit_px", each.limitPx},
             {"fade", each.isFade},
             {"sentence", each.sentence}};
@@ -207,7 +171,7 @@ Json whatIfJson(const TraceWhatIfFound& found) {
     for (const planet::TraceWhatIfView& view : report.views) {
         Json& one = json["view"].emplace_back(Json::object());
         one["view"] = view.view;
-        one["engine"] = jsonOf(report, view.engine);
+        one["engine"] = traceTotalsJson(view.engine, report.description);
         one["own_settings"] = view.own.totals.frames > 0 ? jsonOf(report, view.own) : Json(nullptr);
         const std::vector<bool> byBytes = planet::traceFront(view.rows, planet::TraceCost::Bytes);
         const std::vector<bool> byTriangles = planet::traceFront(view.rows, planet::TraceCost::Triangles);
@@ -227,7 +191,7 @@ Json whatIfJson(const TraceWhatIfFound& found) {
     if (found.suggestion) {
         const planet::TraceTauSuggestion& tau = *found.suggestion;
         json["suggestion"] = {{"tau_px", tau.tauPx},    {"met", tau.isMet},
-                              {"bound", tau.isBound},   {"max_error_px", finiteOrNull(tau.errorPx)},
+                              {"bound", tau.isBound},   {"max_error_px", tracedNumberJson(tau.errorPx)},
                               {"max_bytes", tau.bytes}, {"max_triangles", tau.triangles}};
     }
     return json;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planet/base/try.h"
+#include "planet/trace/trace_reading.h"
 
 namespace planet {
 
@@ -32,24 +33,17 @@ struct ComparedFrame {
 // The frames of a trace, one after another.
 class ComparedTrace {
 public:
-    explicit ComparedTrace(TraceFile& file) : problem(file.problem()), file_(file) {}
+    explicit ComparedTrace(TraceFile& file) : blocks_(file) {}
 
-    Result<void> begin() { return file_.seek(0, sink_); }
+    Result<void> begin() { return blocks_.begin(sink_); }
     // Returns the next frame, or null at the end.
     const ComparedFrame* front() {
-        while (frames_.empty() && !isAtEnd_) {
-            const Result<bool> more = file_.next(sink_);
-            isDamaged = !more;
-            if (isDamaged) problem = more.error().message;
-            isAtEnd_ = isDamaged || !*more;
-        }
+        while (frames_.empty() && !isAtEnd_) isAtEnd_ = !blocks_.next(sink_);
         return frames_.empty() ? nullptr : &frames_.front();
     }
     void pop() { frames_.pop_front(); }
     const std::optional<TraceDescription>& description() const { return state_.description(); }
-
-    std::optional<std::string> problem;
-    bool isDamaged = false;
+    const TraceEnd& end() const { return blocks_.end(); }
 
 private:
     void add() {
@@ -74,7 +68,7 @@ private:
         }
     }
 
-    TraceFile& file_;
+    TraceBlocks blocks_;
     TraceState state_;
     TraceDecoder::Sink sink_ = [this](const TraceEvent& event) {
         if (state_.add(event)) add();
@@ -235,10 +229,10 @@ Result<TraceComparison> compareTraces(TraceFile& a, TraceFile& b, const TraceCom
     comparer.finish();
     found.descriptionA = traceA.description();
     found.descriptionB = traceB.description();
-    found.problemA = std::move(traceA.problem);
-    found.problemB = std::move(traceB.problem);
-    found.isDamagedA = traceA.isDamaged;
-    found.isDamagedB = traceB.isDamaged;
+    found.problemA = traceA.end().problem;
+    found.problemB = traceB.end().problem;
+    found.isDamagedA = traceA.end().isDamaged;
+    found.isDamagedB = traceB.end().isDamaged;
     return found;
 }
 

@@ -92,6 +92,41 @@ bool touch(const TraceBounds& finer, const TraceBounds& coarser) {
                : finer.shape == TraceBoundsShape::Box && boxesTouch(finer, coarser);
 }
 
+std::string framesOf(const TraceFault& fault) {
+    return traceFramesText(fault.frames, fault.firstFrame, fault.lastFrame);
+}
+
+// Returns since when something holds for a node, seconds, and notes it for the next frame. before: of the frame before.
+double sinceWhen(TraceNodeIndex node, double nowS, const std::unordered_map<TraceNodeIndex, double>& before,
+                 std::unordered_map<TraceNodeIndex, double>& noted) {
+    const auto found = before.find(node);
+    return noted[node] = found == before.end() ? nowS : found->second;
+}
+
+// Returns whether a node's data came in this frame: too late for what the frame drew.
+bool arrives(const TraceState& state, TraceNodeIndex node) {
+    return std::ranges::any_of(state.frame().paged, [&](const TracePagedStep& step) {
+        return step.event.node == node && step.event.kind == 0 && step.event.step == TraceStep::Arrived;
+    });
+}
+
+// Returns a child for whose data a node waits; noTraceNode if all data is there. An engine need not load children that it
+// culls, so one that is being loaded is preferred.
+TraceNodeIndex missingChild(const TraceState& state, const TraceNodeState& node) {
+    TraceNodeIndex missing = noTraceNode, arriving = noTraceNode;
+    for (const TraceNodeIndex child : node.children) {
+        const TraceNodeIndex loader = state.loaderOf(child);
+        if (state.isResident(child)) {
+            if (loader != noTraceNode && arrives(state, loader)) arriving = child;
+            continue;
+        }
+        const TraceData data = state.nodes()[loader].data[0].data;
+        if (data == TraceData::Requested || data == TraceData::Started) return child;
+        if (missing == noTraceNode) missing = child;
+    }
+    return missing != noTraceNode && arriving != noTraceNode ? arriving : missing;
+}
+
 constexpr std::uint64_t coordinateMask = (std::uint64_t{1} << 28) - 1;
 
 struct QuadtreePlace {
@@ -105,6 +140,11 @@ std::uint64_t idOf(const QuadtreePlace& place) {
 }
 
 }  // namespace
+
+std::string traceFramesText(std::uint64_t frames, std::uint64_t first, std::uint64_t last) {
+    return frames == 1 ? fmt::format("in frame {}", first)
+                       : fmt::format("in {} frames from {} to {}", frames, first, last);
+}
 
 const char* traceFaultName(TraceFaultKind kind) {
     switch (kind) {
@@ -213,9 +253,8 @@ void TraceFaultFinder::markView(const TraceState& state, const TraceFrameView& v
             if (memory.drawn[ancestor] == frames_) {
                 TraceFault& fault = note(state, {TraceFaultKind::DrawnTwice, view.view, node, ancestor});
                 fault.sentence =
-                    fmt::format("{} is drawn although its {} {} is drawn too, in {} frames from {} to {}",
-                                nameOf(state, node), step == 0 ? "parent" : "ancestor",
-                                nameOf(state, ancestor), fault.frames, fault.firstFrame, fault.lastFrame);
+                    fmt::format("{} is drawn although its {} {} is drawn too, {}", nameOf(state, node),
+                                step == 0 ? "parent" : "ancestor", nameOf(state, ancestor), framesOf(fault));
             }
             ancestor = nodes[ancestor].parent;
         }
@@ -238,10 +277,9 @@ void TraceFaultFinder::findHoles(const TraceState& state, const TraceFrameView& 
             const bool isDrawn = memory.drawn[child] == frames_ || memory.below[child] == frames_;
             if (isDrawn || memory.culled[child] == frames_ || !isVisible(state, *view.info, child)) continue;
             TraceFault& fault = note(state, {TraceFaultKind::Hole, view.view, child, parent});
-            fault.sentence = fmt::format(
-                "nothing is drawn at {} although its parent {} is split and it is in view, in {} frames from "
-                "{} to {}",
-                nameOf(state, child), nameOf(state, parent), fault.frames, fault.firstFrame, fault.lastFrame);
+            fault.sentence =
+                fmt::format("nothing is drawn at {} although its parent {} is split and it is in view, {}",
+                            nameOf(state, child), nameOf(state, parent), framesOf(fault));
         }
     }
 }
@@ -333,12 +371,14 @@ void TraceFaultFinder::judgeErrors(const TraceState& state, const TraceFrameView
     tally.tauPx = *tau;
     tally.mergePx = *tau * (1 - state.setting("hysteresis", view.view).value_or(0));
     tally.maxLevel = state.setting("max_level", view.view).value_or(1e9);
+    tally.fadeWaitS = traceFadeWaitS(state, view.view);
     for (const TraceDrawn& drawn : view.drawn) {
         judgeCoarse(state, view, memory, drawn, tally);
-        judgeFine(state, view, drawn.node, tally);
+        judgeFine(state, view, memory, drawn.node, tally);
     }
     memory.coarseSinceS = std::move(tally.coarseSinceS);
     memory.starvedSinceS = std::move(tally.starvedSinceS);
+    memory.fineNodeSinceS = std::move(tally.fineNodeSinceS);
     if (tally.coarse > 0) reportCoarse(state, view.view, tally);
     const bool isFine =
         static_cast<double>(tally.fine) > limits_.tooFineShare * static_cast<double>(tally.withParent);
@@ -358,40 +398,40 @@ void TraceFaultFinder::judgeCoarse(const TraceState& state, const TraceFrameView
         node.children.empty())
         return;
     const double now = state.frame().timeS;
-    const auto since = [&](const auto& before, auto& sinceS) {
-        const auto found = before.find(drawn.node);
-        return sinceS[drawn.node] = found == before.end() ? now : found->second;
-    };
-    const auto missing = std::find_if(node.children.begin(), node.children.end(),
-                                      [&](TraceNodeIndex child) { return !state.isResident(child); });
-    if (missing == node.children.end()) {
-        if (now - since(memory.coarseSinceS, tally.coarseSinceS) < limits_.ignoredAfterS) return;
+    const TraceNodeIndex missing = missingChild(state, node);
+    if (missing == noTraceNode) {
+        const double waitedS = now - sinceWhen(drawn.node, now, memory.coarseSinceS, tally.coarseSinceS);
+        if (waitedS < limits_.ignoredAfterS + tally.fadeWaitS) return;
         ++tally.coarse;
         if (error <= tally.worstCoarsePx) return;
         tally.worstCoarse = drawn.node;
         tally.worstCoarsePx = error;
         return;
     }
-    const double starvedS = now - since(memory.starvedSinceS, tally.starvedSinceS);
+    const double starvedS = now - sinceWhen(drawn.node, now, memory.starvedSinceS, tally.starvedSinceS);
     if (starvedS < limits_.starvedAfterS) return;
-    const TraceNodeIndex loader = state.loaderOf(*missing);
+    const TraceNodeIndex loader = state.loaderOf(missing);
     TraceFault& fault = note(state, {TraceFaultKind::Starvation, view.view, drawn.node, loader});
     fault.value = starvedS;
     fault.limit = limits_.starvedAfterS;
     fault.sentence = fmt::format(
         "{} is drawn with an error of {:.2f} px for {:.3f} s, until frame {}, because the data of {} is not "
-        "there; "
-        "expected at most {} px",
+        "there; expected at most {} px",
         nameOf(state, drawn.node), error, starvedS, fault.lastFrame, nameOf(state, loader), tally.tauPx);
 }
 
-void TraceFaultFinder::judgeFine(const TraceState& state, const TraceFrameView& view, TraceNodeIndex node,
-                                 ErrorTally& tally) const {
+void TraceFaultFinder::judgeFine(const TraceState& state, const TraceFrameView& view,
+                                 const ViewMemory& memory, TraceNodeIndex node, ErrorTally& tally) const {
     const TraceNodeIndex parent = state.nodes()[node].parent;
     if (parent == noTraceNode) return;
     ++tally.withParent;
     const double error = traceErrorPx(*state.description(), state.nodes()[parent].node, *view.info);
     if (!(error < tally.mergePx * (1 - limits_.errorSlack))) return;
+    if (tally.fadeWaitS > 0) {
+        const double now = state.frame().timeS;
+        const double sinceS = sinceWhen(node, now, memory.fineNodeSinceS, tally.fineNodeSinceS);
+        if (now - sinceS < tally.fadeWaitS) return;
+    }
     ++tally.fine;
     if (tally.worstFine != noTraceNode && error >= tally.worstFinePx) return;
     tally.worstFine = node;
@@ -409,10 +449,9 @@ void TraceFaultFinder::reportCoarse(const TraceState& state, int view, const Err
     }
     fault.sentence = fmt::format(
         "selection ignores its own tau: {} nodes exceed it for more than {} s although their children are "
-        "there, {} "
-        "with {:.2f} px, in {} frames from {} to {}; expected at most {} px",
-        fault.count, limits_.ignoredAfterS, traceIdText(*state.description(), fault.node), fault.value,
-        fault.frames, fault.firstFrame, fault.lastFrame, tally.tauPx);
+        "there, {} with {:.2f} px, {}; expected at most {} px",
+        fault.count, limits_.ignoredAfterS + tally.fadeWaitS, traceIdText(*state.description(), fault.node),
+        fault.value, framesOf(fault), tally.tauPx);
 }
 
 void TraceFaultFinder::reportFine(const TraceState& state, const TraceFrameView& view,
@@ -426,10 +465,9 @@ void TraceFaultFinder::reportFine(const TraceState& state, const TraceFrameView&
     fault.limit = tally.mergePx;
     fault.sentence = fmt::format(
         "selection ignores its own tau: {} of {} drawn nodes are finer than necessary, the parent of {} has "
-        "{:.3f} px, "
-        "in {} frames from {} to {}; expected more than {:.3f} px",
+        "{:.3f} px, {}; expected more than {:.3f} px",
         tally.fine, view.drawn.size(), traceIdText(*state.description(), fault.node), fault.value,
-        fault.frames, fault.firstFrame, fault.lastFrame, tally.mergePx);
+        framesOf(fault), tally.mergePx);
 }
 
 void TraceFaultFinder::step(const TraceState& state, int view, TraceNodeIndex finer, TraceNodeIndex coarser) {
@@ -437,9 +475,8 @@ void TraceFaultFinder::step(const TraceState& state, int view, TraceNodeIndex fi
     TraceFault& fault = note(state, {TraceFaultKind::LevelStep, view, finer, coarser});
     fault.value = static_cast<double>(fine) - static_cast<double>(coarse);
     fault.limit = 1;
-    fault.sentence = fmt::format("{} of level {} is drawn beside {} of level {}, in {} frames from {} to {}",
-                                 nameOf(state, finer), fine, nameOf(state, coarser), coarse, fault.frames,
-                                 fault.firstFrame, fault.lastFrame);
+    fault.sentence = fmt::format("{} of level {} is drawn beside {} of level {}, {}", nameOf(state, finer),
+                                 fine, nameOf(state, coarser), coarse, framesOf(fault));
 }
 
 void TraceFaultFinder::findSteps(const TraceState& state, const TraceFrameView& view,

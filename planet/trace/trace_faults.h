@@ -12,7 +12,8 @@
 // | TooFine        | most drawn nodes have a parent that would do: selection ignores its own τ                            |
 //
 // A trace is judged only by what the engine tells: without views no Hole, without τ no Starvation, TooCoarse and TooFine, without
-// bounds or ids no LevelStep, without parents nothing but LatePage. A frame that lost events is not judged.
+// bounds or ids no LevelStep, without parents nothing but LatePage. A frame that lost events is not judged. If the engine tells
+// fade_s, a node counts for TooCoarse and TooFine only once it has waited longer than traceFadeWaitS().
 #pragma once
 
 #include <cstdint>
@@ -41,10 +42,9 @@ struct TraceFaultLimits {
     int thrashReversals = 3;   // changes back of one node, each soon after the last, that make a fault, >= 1
     double lateAfterS = 0.5;   // from request to arrival, engine's seconds, > 0
     double starvedAfterS = 0.5;  // drawn too coarse, engine's seconds, > 0
-    double ignoredAfterS =
-        0.5;  // the same with data there, engine's seconds, > 0; Worldy fades for 0.25 s before it splits
-    double errorSlack = 1e-4;   // share of τ by which errors may differ from the engine's own, [0, 1]
-    double tooFineShare = 0.5;  // of drawn nodes with a parent; splits for balance are a smaller one, (0, 1]
+    double ignoredAfterS = 0.5;  // the same with data there, after the wait for fades, engine's seconds, > 0
+    double errorSlack = 1e-4;    // share of τ by which errors may differ from the engine's own, [0, 1]
+    double tooFineShare = 0.5;   // of drawn nodes with a parent; splits for balance are a smaller one, (0, 1]
     std::size_t maxFaults = 10'000;  // that are listed, >= 1
 };
 
@@ -66,6 +66,9 @@ struct TraceFault {
     std::uint64_t count = 0;  // TooCoarse, TooFine: most nodes in a frame
     std::string sentence;     // for users; names the nodes by traceIdText
 };
+
+// Returns "in frame 12" or "in 3 frames from 12 to 14". Pure.
+std::string traceFramesText(std::uint64_t frames, std::uint64_t first, std::uint64_t last);
 
 // Takes the frames of a trace in order. One thread at a time.
 class TraceFaultFinder {
@@ -110,6 +113,7 @@ private:
         std::unordered_map<TraceNodeIndex, Change> changes;
         std::unordered_map<TraceNodeIndex, double> coarseSinceS;
         std::unordered_map<TraceNodeIndex, double> starvedSinceS;
+        std::unordered_map<TraceNodeIndex, double> fineNodeSinceS;
         double fineSinceS = 0;
         bool isFine = false;
     };
@@ -119,7 +123,8 @@ private:
         double tauPx = 0;
         double mergePx = 0;  // τ (1 - hysteresis)
         double maxLevel = 0;
-        std::unordered_map<TraceNodeIndex, double> coarseSinceS, starvedSinceS;
+        double fadeWaitS = 0;
+        std::unordered_map<TraceNodeIndex, double> coarseSinceS, starvedSinceS, fineNodeSinceS;
         std::uint64_t coarse = 0, fine = 0, withParent = 0;  // nodes
         TraceNodeIndex worstCoarse = noTraceNode, worstFine = noTraceNode;
         double worstCoarsePx = 0, worstFinePx = 0;
@@ -135,8 +140,8 @@ private:
     void judgeErrors(const TraceState& state, const TraceFrameView& view, ViewMemory& memory);
     void judgeCoarse(const TraceState& state, const TraceFrameView& view, const ViewMemory& memory,
                      const TraceDrawn& drawn, ErrorTally& tally);
-    void judgeFine(const TraceState& state, const TraceFrameView& view, TraceNodeIndex node,
-                   ErrorTally& tally) const;
+    void judgeFine(const TraceState& state, const TraceFrameView& view, const ViewMemory& memory,
+                   TraceNodeIndex node, ErrorTally& tally) const;
     void reportCoarse(const TraceState& state, int view, const ErrorTally& tally);
     void reportFine(const TraceState& state, const TraceFrameView& view, const ErrorTally& tally);
     void findSteps(const TraceState& state, const TraceFrameView& view, const ViewMemory& memory);

@@ -8,8 +8,8 @@
 
 namespace planet {
 
-TraceReader::TraceReader(std::string name, TraceDecoder::Sink sink)
-    : name_(std::move(name)), sink_(std::move(sink)) {}
+TraceReader::TraceReader(std::string name, TraceDecoder::Sink sink, PartSink parts)
+    : name_(std::move(name)), sink_(std::move(sink)), parts_(std::move(parts)) {}
 
 tl::unexpected<Error> TraceReader::stop(const std::string& what) {
     error_ = Error{ErrorKind::BadInput, fmt::format("{}: byte {}: {}", name_, offset_, what)};
@@ -56,6 +56,7 @@ Result<bool> TraceReader::takePart() {
             !decoded)
             return stop(decoded.error().message);
     }
+    if (parts_) parts_(left.first(bytes));
     used_ += bytes;
     offset_ += bytes;
     return true;

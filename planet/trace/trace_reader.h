@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,8 +18,12 @@ namespace planet {
 // the memory in use is at most a block. One thread at a time.
 class TraceReader {
 public:
+    // Takes the bytes of the header, and of each whole block after its events went to the sink. They are checked; the span is
+    // valid during the call.
+    using PartSink = std::function<void(std::span<const std::byte>)>;
+
     // name: of the file or address, for messages.
-    TraceReader(std::string name, TraceDecoder::Sink sink);
+    TraceReader(std::string name, TraceDecoder::Sink sink, PartSink parts = {});
 
     // Takes the next bytes. The Error names the byte of the stream and what is wrong there. What came before it has gone to
     // the sink; nothing that comes after is read, and later calls return the same Error.
@@ -28,7 +33,8 @@ public:
     // ends: what came before is valid.
     Result<void> finish();
 
-    std::uint64_t bytes() const { return fed_; }  // fed so far
+    std::uint64_t bytes() const { return fed_; }            // fed so far
+    std::uint64_t checkedBytes() const { return offset_; }  // of them, the header and all whole blocks
 
 private:
     Result<void> takeParts();
@@ -37,6 +43,7 @@ private:
 
     std::string name_;
     TraceDecoder::Sink sink_;
+    PartSink parts_;
     TraceDecoder decoder_;
     std::vector<std::byte> buffer_;  // from `used_` on: what is not decoded yet
     std::size_t used_ = 0;

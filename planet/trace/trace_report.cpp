@@ -6,41 +6,16 @@
 
 #include "planet/base/percentile.h"
 #include "planet/base/try.h"
+#include "planet/trace/trace_reading.h"
 
 namespace planet {
 
 namespace {
 
 constexpr double thrashWithinS = 1;
-constexpr int mostParents = 64;  // a hostile trace can link parents in a ring
 
 double sinceS(std::uint64_t fromNs, std::uint64_t toNs) {
     return static_cast<double>(static_cast<std::int64_t>(toNs - fromNs)) * 1e-9;
-}
-
-// Returns whether a set has a node or one of its ancestors.
-bool coversOne(const TraceState& state, const std::unordered_set<TraceNodeIndex>& drawn,
-               TraceNodeIndex node) {
-    for (int step = 0; step < mostParents && node != noTraceNode; ++step) {
-        if (drawn.contains(node)) return true;
-        node = state.nodes()[node].parent;
-    }
-    return false;
-}
-
-// Returns the ancestors of drawn nodes and of those that were culled.
-std::unordered_set<TraceNodeIndex> splitNodes(const TraceState& state, const TraceFrameView& view) {
-    std::unordered_set<TraceNodeIndex> split;
-    const auto addAncestors = [&](TraceNodeIndex node) {
-        TraceNodeIndex ancestor = state.nodes()[node].parent;
-        for (int step = 0; step < mostParents && ancestor != noTraceNode; ++step) {
-            if (!split.insert(ancestor).second) break;
-            ancestor = state.nodes()[ancestor].parent;
-        }
-    };
-    for (const TraceDrawn& each : view.drawn) addAncestors(each.node);
-    for (const TraceCulled& each : view.culled) addAncestors(each.node);
-    return split;
 }
 
 }  // namespace
@@ -72,11 +47,7 @@ void TraceReporter::add(const TraceState& state) {
     report_.framesOverBudget += std::max(frame.cpuMs, frame.gpuMs) > budgetMs_;
     for (const TracePagedStep& step : frame.paged) addPaged(state, step);
     finder_.add(state);
-    for (View& view : views_) {
-        // Without all of its events, nothing in the next frame is a change.
-        view.hasBefore = view.hasBefore && frame.isComplete() && !frame.followsGap &&
-                         frame.view(static_cast<std::uint8_t>(view.report.view)) != nullptr;
-    }
+    switches_.clear();
     for (const TraceFrameView& each : frame.views) {
         auto view = std::ranges::find(views_, int{each.view}, [](const View& v) { return v.report.view; });
         if (view == views_.end()) {
@@ -87,19 +58,25 @@ void TraceReporter::add(const TraceState& state) {
     }
 }
 
+const TraceSwitchFinder* TraceReporter::finder(int view) const {
+    const auto found = std::ranges::find(views_, view, [](const View& v) { return v.report.view; });
+    const bool isThere = found != views_.end() && found->lastFrame == report_.lastFrame;
+    return isThere ? &found->switches : nullptr;
+}
+
 void TraceReporter::addView(const TraceState& state, const TraceFrameView& frame, View& view) {
     TraceViewReport& report = view.report;
     ++report.frames;
-    std::unordered_set<TraceNodeIndex> drawn;
-    std::uint64_t triangles = 0;
-    for (const TraceDrawn& each : frame.drawn) {
-        if (drawn.insert(each.node).second) triangles += state.nodes()[each.node].node.triangles;
+    view.lastFrame = state.frame().number;
+    for (const TraceSwitch& found : view.switches.add(state, frame)) {
+        note(found, view);
+        switches_.push_back(found);
     }
-    report.mostDrawn = std::max<std::uint64_t>(report.mostDrawn, drawn.size());
-    report.mostTriangles = std::max(report.mostTriangles, triangles);
-    view.drawnTotal += drawn.size();
+    const TraceSelection& drawn = view.switches.selection();
+    report.mostDrawn = std::max<std::uint64_t>(report.mostDrawn, drawn.drawn.size());
+    report.mostTriangles = std::max(report.mostTriangles, drawn.triangles);
+    view.drawnTotal += drawn.drawn.size();
     addErrors(state, frame, view);
-    addChanges(state, frame, std::move(drawn), view);
 }
 
 void TraceReporter::addErrors(const TraceState& state, const TraceFrameView& frame, View& view) {
@@ -124,31 +101,14 @@ void TraceReporter::addErrors(const TraceState& state, const TraceFrameView& fra
     report.framesOverTau += isOver;
 }
 
-void TraceReporter::addChanges(const TraceState& state, const TraceFrameView& frame,
-                               std::unordered_set<TraceNodeIndex> drawn, View& view) {
-    std::unordered_set<TraceNodeIndex> split = splitNodes(state, frame);
-    if (view.hasBefore) {
-        for (const TraceNodeIndex node : split) {
-            if (!view.split.contains(node) && coversOne(state, view.drawn, node))
-                note(state, node, true, view);
-        }
-        for (const TraceNodeIndex node : view.split) {
-            if (!split.contains(node) && coversOne(state, drawn, node)) note(state, node, false, view);
-        }
-    }
-    view.hasBefore = state.frame().isComplete();
-    view.drawn = std::move(drawn);
-    view.split = std::move(split);
-}
-
-void TraceReporter::note(const TraceState& state, TraceNodeIndex node, bool isSplit, View& view) {
-    ++(isSplit ? view.report.splits : view.report.merges);
-    const double timeS = state.frame().timeS;
-    const auto [last, isFirst] = view.changes.try_emplace(node, Change{timeS, isSplit});
+void TraceReporter::note(const TraceSwitch& found, View& view) {
+    ++(found.isSplit ? view.report.splits : view.report.merges);
+    const auto [last, isFirst] = view.changes.try_emplace(found.index, Change{found.timeS, found.isSplit});
     if (isFirst) return;
-    const bool isBack = last->second.isSplit != isSplit && timeS - last->second.timeS < thrashWithinS;
+    const bool isBack =
+        last->second.isSplit != found.isSplit && found.timeS - last->second.timeS < thrashWithinS;
     view.report.thrashes += isBack;
-    last->second = {timeS, isSplit};
+    last->second = {found.timeS, found.isSplit};
 }
 
 void TraceReporter::addPaged(const TraceState& state, const TracePagedStep& step) {
@@ -225,19 +185,10 @@ Result<TraceReport> reportOfTrace(TraceFile& file, double budgetMs, const TraceF
     const TraceDecoder::Sink sink = [&](const TraceEvent& event) {
         if (state.add(event)) reporter.add(state);
     };
-    std::optional<std::string> problem = file.problem();
-    bool isDamaged = false;
-    TRY(file.seek(0, sink));
-    for (;;) {
-        if (goOn && !goOn()) return cancelled();
-        const Result<bool> more = file.next(sink);
-        isDamaged = !more;
-        if (isDamaged) problem = more.error().message;
-        if (isDamaged || !*more) break;
-    }
+    TRY_ASSIGN(TraceEnd end, readTrace(file, goOn, sink));
     TraceReport report = reporter.finish(state);
-    report.problem = std::move(problem);
-    report.isDamaged = isDamaged;
+    report.problem = std::move(end.problem);
+    report.isDamaged = end.isDamaged;
     return report;
 }
 

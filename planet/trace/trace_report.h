@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "planet/base/result.h"
@@ -15,6 +14,7 @@
 #include "planet/trace/trace_faults.h"
 #include "planet/trace/trace_index.h"
 #include "planet/trace/trace_state.h"
+#include "planet/trace/trace_switches.h"
 
 namespace planet {
 
@@ -90,6 +90,10 @@ public:
 
     // Takes state.frame(), which has just ended.
     void add(const TraceState& state);
+    // Returns what is known of a view of the last frame; nullptr: it had no such view.
+    const TraceSwitchFinder* finder(int view) const;
+    // Returns the switches of the last frame, of all views.
+    const std::vector<TraceSwitch>& switches() const { return switches_; }
     // Ends the trace. Call it once.
     TraceReport finish(const TraceState& state);
 
@@ -101,10 +105,9 @@ private:
     struct View {
         TraceViewReport report;
         std::uint64_t drawnTotal = 0;
-        bool hasBefore = false;  // the sets are those of the frame before
-        std::unordered_set<TraceNodeIndex> drawn;
-        std::unordered_set<TraceNodeIndex> split;  // nodes with a drawn or culled descendant
-        std::unordered_map<TraceNodeIndex, Change> changes;
+        std::uint64_t lastFrame = 0;  // that had it
+        TraceSwitchFinder switches;
+        std::unordered_map<TraceNodeIndex, Change> changes;  // the last one of each node
     };
     struct Kind {
         TraceKindReport report;
@@ -113,13 +116,12 @@ private:
     };
 
     void addView(const TraceState& state, const TraceFrameView& frame, View& view);
-    void addChanges(const TraceState& state, const TraceFrameView& frame,
-                    std::unordered_set<TraceNodeIndex> drawn, View& view);
-    void addErrors(const TraceState& state, const TraceFrameView& frame, View& view);
+    static void addErrors(const TraceState& state, const TraceFrameView& frame, View& view);
+    static void note(const TraceSwitch& found, View& view);
     void addPaged(const TraceState& state, const TracePagedStep& step);
-    static void note(const TraceState& state, TraceNodeIndex node, bool isSplit, View& view);
 
     double budgetMs_;
+    std::vector<TraceSwitch> switches_;
     TraceReport report_;
     TraceFaultFinder finder_;
     std::vector<float> cpuMs_;

@@ -209,12 +209,17 @@ void TraceLevelCounter::count(const TraceState& state, bool isContinued, TraceSe
     for (const TraceNodeIndex node : selection.drawn) drawn_[node] = stamp_;
     list_ = selection.split;
     for (const TraceNodeIndex node : list_) split_[node] = stamp_;
-    selection.splits = selection.merges = 0;
-    if (!isContinued) return;
-    for (const TraceNodeIndex node : list_)
-        selection.splits += splitBefore_[node] != stamp_ - 1 && covers(state, drawnBefore_, stamp_ - 1, node);
-    for (const TraceNodeIndex node : listBefore_)
-        selection.merges += split_[node] != stamp_ && covers(state, drawn_, stamp_, node);
+    splitNow_.clear();
+    mergedNow_.clear();
+    if (isContinued) {
+        for (const TraceNodeIndex node : list_)
+            if (splitBefore_[node] != stamp_ - 1 && covers(state, drawnBefore_, stamp_ - 1, node))
+                splitNow_.push_back(node);
+        for (const TraceNodeIndex node : listBefore_)
+            if (split_[node] != stamp_ && covers(state, drawn_, stamp_, node)) mergedNow_.push_back(node);
+    }
+    selection.splits = splitNow_.size();
+    selection.merges = mergedNow_.size();
 }
 
 // ---- the disk ----

@@ -125,6 +125,9 @@ class TraceLevelCounter {
 public:
     // Fills the changes of a selection. isContinued: the last one was that of the frame before.
     void count(const TraceState& state, bool isContinued, TraceSelection& selection);
+    // The nodes that changed in the last call.
+    const std::vector<TraceNodeIndex>& splitNow() const { return splitNow_; }
+    const std::vector<TraceNodeIndex>& mergedNow() const { return mergedNow_; }
 
 private:
     using Stamps = std::vector<std::uint32_t>;
@@ -132,6 +135,7 @@ private:
 
     Stamps drawn_, split_, drawnBefore_, splitBefore_;
     std::vector<TraceNodeIndex> list_, listBefore_;  // split nodes
+    std::vector<TraceNodeIndex> splitNow_, mergedNow_;
     std::uint32_t stamp_ = 1;
 };
 

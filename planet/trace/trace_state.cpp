@@ -35,6 +35,14 @@ void TraceState::on(const TraceKey&) {
             data.data = TraceData::Absent;
         }
     }
+    counts_ = {};
+}
+
+// Changes a state and keeps the counts.
+void TraceState::setData(std::size_t kind, TraceDataState& data, const TraceDataState& to) {
+    if (data.data != TraceData::Absent) --counts_[kind][static_cast<std::size_t>(data.data)];
+    if (to.data != TraceData::Absent) ++counts_[kind][static_cast<std::size_t>(to.data)];
+    data = to;
 }
 
 void TraceState::on(const TraceNamed& named) {
@@ -105,29 +113,31 @@ void TraceState::on(const TracePaged& paged) {
     hasPaging_ = true;
     TraceDataState& data = nodes_[paged.node].data[paged.kind];
     current_.paged.push_back({paged, data});
+    TraceDataState next;
     switch (paged.step) {
         case TraceStep::Requested:
-            data = {.data = TraceData::Requested,
+            next = {.data = TraceData::Requested,
                     .requestedNs = paged.ns,
                     .requestedS = isInFrame_ ? current_.timeS : done_.timeS,
                     .requestedFrame = lastNumber_};
-            if (paged.hasPriority) data.priority = paged.priority;
-            return;
+            if (paged.hasPriority) next.priority = paged.priority;
+            break;
         case TraceStep::Started:
-            data.data = TraceData::Started;
-            data.startedNs = paged.ns;
-            return;
+            next = data;
+            next.data = TraceData::Started;
+            next.startedNs = paged.ns;
+            break;
         case TraceStep::Arrived:
-            data = {.data = TraceData::Resident};
-            return;
+            next.data = TraceData::Resident;
+            break;
         case TraceStep::Failed:
-            data = {.data = TraceData::Failed};
-            return;
+            next.data = TraceData::Failed;
+            break;
         case TraceStep::Cancelled:
         case TraceStep::Evicted:
-            data = {};
-            return;
+            break;
     }
+    setData(paged.kind, data, next);
 }
 
 void TraceState::on(const TraceSet& set) {
@@ -147,10 +157,12 @@ void TraceState::on(const TraceRestored& restored) {
     hasPaging_ = true;
     TraceDataState& data = nodes_[restored.node].data[restored.kind];
     const bool isPending = restored.data == TraceData::Requested || restored.data == TraceData::Started;
-    if (!isPending || data.requestedNs != restored.requestedNs) data = {};
-    data.data = restored.data;
-    data.requestedNs = restored.requestedNs;
-    data.startedNs = restored.startedNs;
+    const bool isKnown = isPending && data.requestedNs == restored.requestedNs;
+    TraceDataState next = isKnown ? data : TraceDataState{};
+    next.data = restored.data;
+    next.requestedNs = restored.requestedNs;
+    next.startedNs = restored.startedNs;
+    setData(restored.kind, data, next);
 }
 
 TraceNodeIndex TraceState::find(std::uint64_t id) const {
@@ -205,6 +217,10 @@ std::string traceIdText(const TraceDescription& description, std::uint64_t id) {
     constexpr std::uint64_t coordinate = (std::uint64_t{1} << 28) - 1;
     const std::string place = fmt::format("{}/{}/{}", id >> 56 & 31, id & coordinate, id >> 28 & coordinate);
     return description.shape == TraceShape::Flat ? place : fmt::format("{}/{}", faces[id >> 61], place);
+}
+
+double traceFadeWaitS(const TraceState& state, int view) {
+    return 2 * std::max(0.0, state.setting("fade_s", view).value_or(0));
 }
 
 }  // namespace planet

@@ -86,6 +86,10 @@ public:
     const std::map<int, std::string>& threads() const { return threads_; }
     std::uint64_t droppedTotal() const { return droppedTotal_; }
     bool hasPaging() const { return hasPaging_; }  // the engine told a step of paging
+    // Returns how many nodes have data of a kind in a state; Absent is not counted and is 0.
+    std::uint64_t count(std::size_t kind, TraceData data) const {
+        return counts_[kind][static_cast<std::size_t>(data)];
+    }
 
     // Returns a setting that is a number, for a view: "name/view" if it is set, else "name"; nothing if neither is.
     std::optional<double> setting(std::string_view name, int view) const;
@@ -117,6 +121,7 @@ private:
 
     TraceFrameView& viewOf(std::uint8_t view);
     void setParent(TraceNodeIndex child, TraceNodeIndex parent);
+    void setData(std::size_t kind, TraceDataState& data, const TraceDataState& to);
     void finishFrame();
 
     std::optional<TraceDescription> description_;
@@ -127,6 +132,7 @@ private:
     std::vector<std::string> names_;
     std::map<std::string, TraceSettingValue, std::less<>> settings_;
     std::map<int, std::string> threads_;
+    std::array<std::array<std::uint64_t, 5>, maxTraceKinds> counts_{};  // by TraceData
     TraceFrame current_;  // in progress, or what happens between two frames
     TraceFrame done_;
     bool isInFrame_ = false;
@@ -146,5 +152,9 @@ double traceErrorPx(const TraceDescription& description, const TraceNode& node, 
 // Returns a node's id as text: "z_pos/3/5/2", face, level, x and y, if ids say so; "3/5/2" if the world is flat; else the
 // number. Pure, any thread.
 std::string traceIdText(const TraceDescription& description, std::uint64_t id);
+
+// Returns how long a switch of level may wait for fades, seconds: for two times the setting fade_s, because nodes wait for
+// their own fades and for those of their neighbours. 0 if the engine tells no fade_s.
+double traceFadeWaitS(const TraceState& state, int view);
 
 }  // namespace planet

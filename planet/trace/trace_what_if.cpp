@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planet/base/try.h"
+#include "planet/trace/trace_faults.h"
+#include "planet/trace/trace_reading.h"
 
 namespace planet {
 
@@ -152,7 +155,7 @@ void TraceWhatIf::judge(const TraceState& state, View& view) {
     if (!right) return;
     const double tauPx = *state.setting("tau", view.view);
     const double mergePx = tauPx * (1 - state.setting("hysteresis", view.view).value_or(0));
-    const double fadeS = state.setting("fade_s", view.view).value_or(0);
+    const double fadeWaitS = traceFadeWaitS(state, view.view);
     const auto limitOf = [&](TraceNodeIndex node) {
         return engine.hasBefore() && !engine.wasSplit(node) ? tauPx : mergePx;
     };
@@ -161,17 +164,17 @@ void TraceWhatIf::judge(const TraceState& state, View& view) {
         note(state, view.view,
              {TraceDisagreementKind::TooCoarse, drawn.node, engine.errorPx(state, drawn.node, true),
               limitOf(drawn.node), drawn.morph > 0},
-             fadeS);
+             fadeWaitS);
     }
     for (const TraceNodeIndex node : right->drawn) {
         if (!engine.isSplit(node) || engine.isDrawn(node)) continue;
         note(state, view.view,
              {TraceDisagreementKind::TooFine, node, engine.errorPx(state, node, true), limitOf(node), false},
-             fadeS);
+             fadeWaitS);
     }
 }
 
-void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, double fadeS) {
+void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, double fadeWaitS) {
     const TraceFrame& frame = state.frame();
     const bool isCoarse = seen.kind == TraceDisagreementKind::TooCoarse;
     const std::uint64_t key =
@@ -193,13 +196,12 @@ void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, 
         fresh.firstFrame = frame.number;
         fresh.errorPx = seen.errorPx;
         fresh.limitPx = seen.limitPx;
-        fresh.isFade = fadeS > 0;
+        fresh.isFade = fadeWaitS > 0;
     }
     TraceDisagreement& it = report_.disagreements[found->second.place];
     it.lastFrame = frame.number;
     ++it.frames;
-    // A switch waits while morphs slide, for fade_s at most, and then for those of its neighbours.
-    const bool mayFade = fadeS > 0 && (seen.isMorphed || frame.timeS - found->second.sinceS <= 2 * fadeS);
+    const bool mayFade = fadeWaitS > 0 && (seen.isMorphed || frame.timeS - found->second.sinceS <= fadeWaitS);
     it.isFade = it.isFade && mayFade;
     if (!it.isFade && disagreedFrame_ != frame.number) {
         disagreedFrame_ = frame.number;
@@ -209,16 +211,23 @@ void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, 
         it.errorPx = seen.errorPx;
         it.limitPx = seen.limitPx;
     }
-    const std::string frames =
-        it.frames == 1 ? fmt::format("in frame {}", it.firstFrame)
-                       : fmt::format("in {} frames from {} to {}", it.frames, it.firstFrame, it.lastFrame);
+    const std::string frames = traceFramesText(it.frames, it.firstFrame, it.lastFrame);
     const std::string name = traceIdText(state.description().value_or(TraceDescription{}), it.node);
-    it.sentence = isCoarse ? fmt::format(
-                                 "{} is drawn with {:.3f} px although its children are there, {}; "
-                                 "expected at most {:g} px",
-                                 name, it.errorPx, frames, it.limitPx)
-                           : fmt::format("{} is split with {:.3f} px, {}; expected more than {:g} px", name,
-                                         it.errorPx, frames, it.limitPx);
+    const std::uint32_t level = state.nodes()[seen.node].node.level;
+    const double maxLevel =
+        state.setting("max_level", view).value_or(std::numeric_limits<double>::infinity());
+    if (isCoarse) {
+        it.sentence = fmt::format(
+            "{} is drawn with {:.3f} px although its children are there, {}; expected at most {:g} px", name,
+            it.errorPx, frames, it.limitPx);
+    } else if (level >= maxLevel) {
+        // Its error may exceed the limit, so that is not why.
+        it.sentence = fmt::format("{} of level {} is split, {}; expected no split from max_level {:g} on",
+                                  name, level, frames, maxLevel);
+    } else {
+        it.sentence = fmt::format("{} is split with {:.3f} px, {}; expected more than {:g} px", name,
+                                  it.errorPx, frames, it.limitPx);
+    }
 }
 
 TraceWhatIfRow TraceWhatIf::rowOf(const Run& run) {
@@ -255,22 +264,15 @@ Result<TraceWhatIfReport> whatIfOfTrace(TraceFile& file, std::span<const TraceSe
         if (std::holds_alternative<TraceRestarted>(event)) nodes.tell(state);
         if (isFrame) whatIf.add(state, described);
     };
-    std::optional<std::string> problem = file.problem();
-    bool isDamaged = false;
-    TRY(file.seek(0, sink));
-    for (;;) {
-        if (goOn && !goOn()) return cancelled();
-        const Result<bool> more = file.next(sink);
-        isDamaged = !more;
-        if (isDamaged) problem = more.error().message;
-        if (isDamaged || !*more) break;
+    const auto blockEnded = [&] {
         described.resize(std::max(described.size(), state.nodes().size()), 0);
         for (const TraceNodeIndex node : fresh) described[node] = 1;
         fresh.clear();
-    }
+    };
+    TRY_ASSIGN(TraceEnd end, readTrace(file, goOn, sink, blockEnded));
     TraceWhatIfReport report = whatIf.finish(state);
-    report.problem = std::move(problem);
-    report.isDamaged = isDamaged;
+    report.problem = std::move(end.problem);
+    report.isDamaged = end.isDamaged;
     return report;
 }
 

@@ -63,7 +63,7 @@ struct TraceWhatIfView {
 
 enum class TraceDisagreementKind : std::uint8_t {
     TooCoarse,  // drawn although its error exceeds τ and its children are there
-    TooFine,    // split although its error does not exceed τ, or τ (1 - hysteresis) if it was split before
+    TooFine,  // split although its error does not exceed τ, or τ (1 - hysteresis) if it was split before, or beyond max_level
 };
 
 // A node for which the engine did not do what its own numbers say, in frames that follow each other.
@@ -135,7 +135,7 @@ private:
     View& viewOf(int view);
     void run(const TraceState& state, View& view, Run& run, int row);
     void judge(const TraceState& state, View& view);
-    void note(const TraceState& state, int view, const Sighting& seen, double fadeS);
+    void note(const TraceState& state, int view, const Sighting& seen, double fadeWaitS);
     static void add(const TraceState& state, const TraceSelection& selection, TraceSelectionTally& tally);
     static TraceWhatIfRow rowOf(const Run& run);
 

@@ -20,7 +20,7 @@ TEST(CommandLine, HelpAndVersionEndWell) {
     const Ran help = runWorldy(folder, "--help");
     EXPECT_EQ(help.exitCode, 0);
     for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly", "cracks", "pops", "sweep",
-                                "bench", "audit", "compare", "make-layers"}) {
+                                "bench", "audit", "compare", "make-layers", "trace", "attach"}) {
         EXPECT_THAT(help.output, HasSubstr(command));
         const Ran own = runWorldy(folder, std::string(command) + " --help");
         EXPECT_EQ(own.exitCode, 0) << command;
@@ -53,8 +53,9 @@ TEST(CommandLine, TheReadmeSaysWhichCommandTakesWhichSharedOption) {
         for (std::string name; names >> name;) takers[(*found)[1]].insert(name.substr(0, name.find(',')));
     }
     ASSERT_GE(takers.size(), 15u);
-    for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly", "bench", "sweep", "cracks",
-                                "costs", "pops", "audit", "replay", "compare", "settings", "make-layers"}) {
+    for (const char* command :
+         {"bake", "info", "verify", "probe", "shot", "fly", "bench", "sweep", "cracks", "costs", "pops",
+          "audit", "replay", "compare", "settings", "make-layers", "trace", "attach"}) {
         const std::set<std::string> options =
             optionsOf(runWorldy(folder, std::string(command) + " --help").output);
         EXPECT_TRUE(options.contains("--json")) << command;
@@ -118,6 +119,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"shot junk.chk -o o.png --set surface.layers=3",
                    "surface.layers is 3; expected layers, as [[layer]]"},
         BadCommand{"shot junk.chk -o o.png --set surface.layer_use=maybe", "\"automatic\", \"on\", \"off\""},
+        BadCommand{"attach", "PORT is required"}, BadCommand{"attach 0", "PORT"},
+        BadCommand{"attach 65536", "PORT"}, BadCommand{"attach x", "PORT"},
+        BadCommand{"attach 9910 --seconds 0", "--seconds"},
+        BadCommand{"attach 9910 --out none", "none: is no folder; expected a folder, or a new file"},
+        BadCommand{"attach 9910 --out none/a.lodtrace", "none: is no folder"},
+        BadCommand{"attach 9910 --out junk.chk", "junk.chk: is no folder"},
         BadCommand{"make-layers", "--output is required"}, BadCommand{"make-layers -o junk.chk", "junk.chk"},
         BadCommand{"make-layers -o made --texels 100", "--texels"},
         BadCommand{"make-layers -o made --size 16", "make-layers --size: removed; expected --texels"},

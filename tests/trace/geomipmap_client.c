@@ -1,11 +1,14 @@
 /* A flat geomipmapping terrain (de Boer, "Fast terrain rendering using geometrical mipmapping", 2000) that traces itself:
  * a second engine beside Worldy, in C99, with faults to order.
  *
- *   geomipmap_client WHERE [FAULT]
+ *   geomipmap_client WHERE [FAULT [FRAME_MS]]
  *
  * WHERE is what lod_trace_open takes. The camera flies over 16 x 16 patches for 120 frames. A patch has four levels, and
  * each level is a node whose parent is the next coarser one; the coarsest ones are children of one node for the whole
- * terrain. Prints the id of the node at fault, and the first and last frame in which it is planted. */
+ * terrain. Prints the id of the node at fault, and the first and last frame in which it is planted.
+ *
+ * With FRAME_MS, each frame takes that long. The flight then begins when somebody listens, and each frame is printed once
+ * the writer has passed it on. */
 #define LOD_TRACE_IMPLEMENTATION
 #include "planet/trace/lod_trace.h"
 
@@ -261,6 +264,30 @@ static lod_trace* open_trace(const char* where) {
     return trace;
 }
 
+static void sleep_ms(int ms) {
+#if defined(_WIN32)
+    Sleep((DWORD)ms);
+#else
+    struct timespec time;
+    time.tv_sec = ms / 1000;
+    time.tv_nsec = ms % 1000 * 1000000L;
+    nanosleep(&time, NULL);
+#endif
+}
+
+static void fly(engine* e, int frame_ms) {
+    int frame;
+    while (frame_ms > 0 && !lod_trace_listening(e->trace)) sleep_ms(1);
+    for (frame = 0; frame < frames; ++frame) {
+        run_frame(e, frame);
+        /* The test flies as fast as it can, so it waits for the writer. A real frame takes long enough. */
+        if (!lod_trace_flush(e->trace, 1000) || frame_ms <= 0) continue;
+        printf("frame %d\n", frame + 1);
+        fflush(stdout);
+        sleep_ms(frame_ms);
+    }
+}
+
 static fault_kind fault_from(const char* name) {
     int i = 0;
     while (i < fault_count && strcmp(fault_names[i], name) != 0) ++i;
@@ -269,12 +296,12 @@ static fault_kind fault_from(const char* name) {
 
 int main(int argc, char** argv) {
     static engine e;
-    int frame, patch;
+    int fault, patch;
     const char* problem;
-    e.fault = argc == 3 ? fault_from(argv[2]) : none;
-    if (argc < 2 || argc > 3 || e.fault == fault_count) {
-        fprintf(stderr, "usage: geomipmap_client WHERE [FAULT], FAULT one of:");
-        for (frame = 0; frame < fault_count; ++frame) fprintf(stderr, " %s", fault_names[frame]);
+    e.fault = argc >= 3 ? fault_from(argv[2]) : none;
+    if (argc < 2 || argc > 4 || e.fault == fault_count) {
+        fprintf(stderr, "usage: geomipmap_client WHERE [FAULT [FRAME_MS]], FAULT one of:");
+        for (fault = 0; fault < fault_count; ++fault) fprintf(stderr, " %s", fault_names[fault]);
         fprintf(stderr, "\n");
         return EXIT_FAILURE;
     }
@@ -287,11 +314,7 @@ int main(int argc, char** argv) {
     e.first_planted = e.fault == thrash ? 29 : 39;
     e.last_planted = e.fault == thrash ? 68 : 48;
     tell_nodes(&e);
-    for (frame = 0; frame < frames; ++frame) {
-        run_frame(&e, frame);
-        /* The test flies as fast as it can, so it waits for the writer. A real frame takes long enough. */
-        lod_trace_flush(e.trace, 1000);
-    }
+    fly(&e, argc == 4 ? atoi(argv[3]) : 0);
     problem = lod_trace_error(e.trace);
     if (problem) fprintf(stderr, "geomipmap_client: %s\n", problem);
     /* The trace numbers frames from 1. */

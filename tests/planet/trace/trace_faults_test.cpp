@@ -250,6 +250,20 @@ TEST(TraceFaults, aStepOfTwoLevelsIsFoundByIdsAndByBounds) {
     }
 }
 
+// An engine that culls a child need not load it.
+TEST(TraceFaults, aStarvedNodeWaitsForTheChildThatIsBeingLoaded) {
+    MadeTrace trace;
+    trace.set("tau", 0.01);
+    trace.add(TracePaged{.step = TraceStep::Requested, .node = trace.node(1, 1, 0)});
+    for (int frame = 0; frame < 60; ++frame) trace.frame({trace.node(0, 0, 0)});
+    trace.frame({trace.node(0, 0, 0)},
+                [&] { trace.add(TracePaged{.step = TraceStep::Arrived, .node = trace.node(1, 1, 0)}); });
+    std::vector<std::uint64_t> missing;
+    for (const TraceFault& fault : trace.finder.faults())
+        if (fault.kind == Kind::Starvation) missing.push_back(fault.other);
+    EXPECT_EQ(missing, std::vector<std::uint64_t>{quadtreeNode(1, 1, 0).id});
+}
+
 TEST(TraceFaults, aHoleIsOneOnlyIfItIsInViewAndNotCulled) {
     MadeTrace trace;
     const std::vector<TraceNodeIndex> three = {trace.node(1, 0, 0), trace.node(1, 1, 0), trace.node(1, 0, 1)};
@@ -280,7 +294,7 @@ TEST(TraceFaults, aGrandchildDrawnWithItsAncestorIsFound) {
     trace.frame(drawn);
     ASSERT_EQ(trace.kinds(), std::vector<Kind>{Kind::DrawnTwice});
     EXPECT_EQ(trace.finder.faults()[0].sentence,
-              "3/1/1 is drawn although its ancestor 1/0/0 is drawn too, in 1 frames from 1 to 1");
+              "3/1/1 is drawn although its ancestor 1/0/0 is drawn too, in frame 1");
 }
 
 TEST(TraceFaults, oneSplitAndMergeIsNoThrash) {
@@ -307,6 +321,32 @@ TEST(TraceFaults, errorsAreComparedWithTauOfTheView) {
     ASSERT_EQ(trace.kinds(), std::vector<Kind>{Kind::TooCoarse});
     EXPECT_EQ(trace.finder.faults()[0].limit, 600);
     EXPECT_EQ(trace.finder.faults()[0].count, 4u);
+}
+
+// Frames are 0.01 s apart. A switch may wait for two fades, and counts as ignored 0.5 s later.
+TEST(TraceFaults, aSwitchMayWaitForFadesButAnIgnoredTauIsFoundDespiteThem) {
+    MadeTrace trace;
+    trace.set("tau", 600);
+    trace.set("fade_s", 0.25);
+    for (int frame = 0; frame < 95; ++frame) trace.frame(wholeLevel(trace, 1));
+    EXPECT_EQ(trace.kinds(), std::vector<Kind>{});
+    for (int frame = 0; frame < 15; ++frame) trace.frame(wholeLevel(trace, 1));
+    ASSERT_EQ(trace.kinds(), std::vector<Kind>{Kind::TooCoarse});
+    EXPECT_NEAR(static_cast<double>(trace.finder.faults()[0].firstFrame), 101, 1);
+    EXPECT_NE(trace.finder.faults()[0].sentence.find("exceed it for more than 1 s"), std::string::npos);
+}
+
+TEST(TraceFaults, mergesOfSeveralLevelsMayWaitForFadesButIgnoredOnesAreFound) {
+    MadeTrace trace;
+    trace.set("tau", 1e6);
+    trace.set("fade_s", 0.25);
+    // A level each 0.4 s, in two fades: at no time a node waits for longer.
+    for (const std::uint32_t level : {3u, 2u, 1u, 0u})
+        for (int frame = 0; frame < 40; ++frame) trace.frame(wholeLevel(trace, level));
+    EXPECT_EQ(trace.kinds(), std::vector<Kind>{});
+    for (int frame = 0; frame < 110; ++frame) trace.frame(wholeLevel(trace, 2));
+    ASSERT_EQ(trace.kinds(), std::vector<Kind>{Kind::TooFine});
+    EXPECT_EQ(trace.finder.faults()[0].count, 16u);
 }
 
 TEST(TraceFaults, maxLevelExcusesCoarseNodes) {

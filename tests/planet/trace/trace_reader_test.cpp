@@ -222,6 +222,31 @@ TEST(TraceReader, nothingIsReadAfterAnError) {
     EXPECT_EQ(events, before);
 }
 
+TEST(TraceReader, givesTheBytesOfCheckedPartsOnly) {
+    const TraceBytes header = traceHeader();
+    const TraceBytes first = traceBlock(bareNode(), bytes({4, 0}));
+    const TraceBytes second = traceBlock({}, bytes({4, 0, 4, 0}));
+    TraceBytes damaged = first;
+    damaged.back() ^= std::byte{1};
+    std::vector<TraceBytes> parts;
+    std::size_t events = 0;
+    std::vector<std::size_t> eventsBefore;
+    TraceReader reader(
+        "made", [&](const TraceEvent&) { ++events; },
+        [&](std::span<const std::byte> part) {
+            parts.emplace_back(part.begin(), part.end());
+            eventsBefore.push_back(events);
+        });
+    for (const std::byte byte : joined({header, first, second})) EXPECT_TRUE(reader.feed({&byte, 1}));
+    EXPECT_EQ(reader.checkedBytes(), reader.bytes());
+    EXPECT_FALSE(reader.feed(damaged));
+    EXPECT_EQ(parts, (std::vector{header, first, second}));
+    EXPECT_EQ(eventsBefore.size(), 3u);
+    EXPECT_EQ(eventsBefore.front(), 0u);
+    EXPECT_EQ(eventsBefore.back(), events);
+    EXPECT_EQ(reader.checkedBytes() + damaged.size(), reader.bytes());
+}
+
 // A header may claim a large block; memory grows only with the bytes that come.
 TEST(TraceReader, aLargeBlockIsAwaitedWithoutItsMemory) {
     TraceReader reader("made", [](const TraceEvent&) {});

@@ -174,5 +174,29 @@ TEST(TraceState, errorsWithoutBoundsAreUnknownAndPixelsStayAsTold) {
     EXPECT_EQ(traceErrorPx(description, node, {}), 3);
 }
 
+TEST(TraceState, dataIsCountedByState) {
+    TraceState state;
+    addAll(state, {TraceNodeTold{0, toldNode(1)}, TraceNodeTold{1, toldNode(2)},
+                   TracePaged{.step = TraceStep::Requested, .node = 0},
+                   TracePaged{.step = TraceStep::Requested, .kind = 1, .node = 0},
+                   TracePaged{.step = TraceStep::Started, .node = 0},
+                   TracePaged{.step = TraceStep::Arrived, .node = 1}});
+    EXPECT_EQ(state.count(0, TraceData::Requested), 0u);
+    EXPECT_EQ(state.count(0, TraceData::Started), 1u);
+    EXPECT_EQ(state.count(0, TraceData::Resident), 1u);
+    EXPECT_EQ(state.count(1, TraceData::Requested), 1u);
+    addAll(state, {TracePaged{.step = TraceStep::Evicted, .node = 1},
+                   TracePaged{.step = TraceStep::Failed, .node = 0},
+                   TracePaged{.step = TraceStep::Cancelled, .kind = 1, .node = 0}});
+    EXPECT_EQ(state.count(0, TraceData::Started), 0u);
+    EXPECT_EQ(state.count(0, TraceData::Resident), 0u);
+    EXPECT_EQ(state.count(0, TraceData::Failed), 1u);
+    EXPECT_EQ(state.count(1, TraceData::Requested), 0u);
+    // A key tells everything anew.
+    addAll(state, {TraceKey{1, 0}, TraceRestored{.data = TraceData::Resident, .node = 1}});
+    EXPECT_EQ(state.count(0, TraceData::Failed), 0u);
+    EXPECT_EQ(state.count(0, TraceData::Resident), 1u);
+}
+
 }  // namespace
 }  // namespace planet

@@ -16,7 +16,6 @@
 namespace planet {
 namespace {
 
-using Kind = TraceDisagreementKind;
 using Residency = TraceResidency;
 using Ids = std::set<std::uint64_t>;
 
@@ -324,7 +323,7 @@ TEST_F(TraceWhatIfs, aFrameInWhichTheEngineIgnoresItsTauIsListed) {
     const TraceWhatIfReport report = this->report();
     ASSERT_EQ(report.disagreements.size(), 1u);
     const TraceDisagreement& found = report.disagreements[0];
-    EXPECT_EQ(found.kind, Kind::TooCoarse);
+    EXPECT_EQ(found.kind, TraceDisagreementKind::TooCoarse);
     EXPECT_EQ(found.node, 2u);
     EXPECT_EQ(found.firstFrame, 2u);
     EXPECT_EQ(found.lastFrame, 2u);
@@ -345,6 +344,18 @@ TEST_F(TraceWhatIfs, aSplitBelowTauIsListed) {
     ASSERT_EQ(report.disagreements.size(), 1u);
     EXPECT_EQ(report.disagreements[0].sentence,
               "3 is split with 0.950 px, in 2 frames from 2 to 3; expected more than 1 px");
+}
+
+TEST_F(TraceWhatIfs, aSplitAtTheLargestLevelIsListedWithThatLevel) {
+    add(TraceNamed{3, "max_level"});
+    add(TraceSet{3, 1.0});
+    tellNodes(15);
+    frame(2.9, {4, 5, 3});  // 2 and 3 have 1.45 px, and no finer level
+    const TraceWhatIfReport report = this->report();
+    ASSERT_EQ(report.disagreements.size(), 1u);
+    EXPECT_EQ(report.disagreements[0].kind, TraceDisagreementKind::TooFine);
+    EXPECT_EQ(report.disagreements[0].sentence,
+              "2 of level 1 is split, in frame 1; expected no split from max_level 1 on");
 }
 
 TEST_F(TraceWhatIfs, aSplitThatTheHysteresisKeepsIsNotListed) {
