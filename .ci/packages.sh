@@ -41,6 +41,7 @@ x11-xserver-utils       says how fine that display is
 xdotool                 presses keys in the window's tests
 imagemagick             takes their screenshots
 gdal-bin                what a bake is measured against
+nodejs                  the trace writer in JavaScript
 clang                   fuzzers, and a second compiler
 libclang-rt-14-dev      its fuzzer and sanitizers"
 
@@ -61,6 +62,14 @@ libzstd-dev:s390x       lossless colour tiles"
 windows_packages="\
 gcc-mingw-w64-x86-64    C compiler for Windows
 g++-mingw-w64-x86-64    C++ compiler for Windows"
+
+# Record a trace of CesiumJS. npm comes with other packages of nodejs than Debian's.
+browser_packages="\
+chromium                runs CesiumJS"
+if ! command -v npm >/dev/null; then
+    browser_packages="$browser_packages
+npm                     fetches CesiumJS"
+fi
 
 # install_missing ASSUME_YES PACKAGES...: lines of "package   what for".
 install_missing() {
