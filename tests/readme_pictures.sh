@@ -201,6 +201,37 @@ picture_flight() {
     click "flight/Stop and save"; click "flight/flight 1"; click flight/Replay; sleep 5; click flight/Play; aside
     dock flight
 }
+# Worldy on a trace of CesiumJS, at a tile that waits for data. WIDTH HEIGHT
+trace_window() {
+    world=$here/tests/trace/cesium/cesium.lodtrace start < <(window "$1" "$2"
+        printf '%s\n' 'data.set = "earth/elevation.tif"' 'window.bottom_height = 290')
+    until_true shown trace/Timeline
+    tab "Trace findings"; click trace_findings/Kind
+    click "$(cut -f1 items.txt | grep -m1 "Kind: starvation")"; click "trace_findings/Fault 0"; tab Trace
+    click "trace/Look as engine"; settle
+}
+# A part of the program's screenshot: NAME GEOMETRY
+crop() { take; convert taken.png -crop "$2" +repage panel.png; small panel.png "$out/$1.png" -dither None -colors 128; }
+picture_trace_cesium() {
+    trace_window 1820 1120
+    tab "Trace findings"; aside
+    whole trace_cesium
+}
+picture_trace() {
+    trace_window 1600 1000; aside
+    set -- $(place viewport/picture)
+    crop trace "$(($1 + $3))x$((1000 - $2 - $4 - 24))+0+$(($2 + $4 + 6))"
+}
+picture_trace_nodes() {
+    trace_window 1820 1000; aside
+    dock trace_nodes
+}
+picture_trace_what_if() {
+    trace_window 1820 1000
+    xdotool key ctrl+shift+w; click "trace_what_if/Run"; settle; aside
+    set -- $(place viewport/picture)
+    crop trace_what_if "$(($1 + $3))x$((1000 - $2 - $4 - 24))+0+$(($2 + $4 + 6))"
+}
 picture_sources() {
     world=earth/earth.toml start < <(pose -32.45 -70.5 160000 0 -88; window 1400 1000; only sources 420; echo 'overlay.colour_by = "source"'; echo 'overlay.sources = true')
     until_true shown "sources/layer ETOPO5"; click "sources/layer Andes at Aconcagua"; settle
@@ -308,7 +339,8 @@ for name in whole_earth sunset_limb himalaya coast ridge ridged_world andes ande
 done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
-    chunk paging frame bake sources log true_error cracks pops precision flight sweep"
+    chunk paging frame bake sources log true_error cracks pops precision flight sweep trace_cesium trace trace_nodes \
+    trace_what_if"
 any=no
 for name in $windows; do asked $name && any=yes; done
 [ $any = yes ] || exit $((failures > 0))

@@ -12,9 +12,10 @@
 #include "app/cli/shot_command.h"
 #include "app/data/bake_progress.h"
 #include "app/editor/editor.h"
-#include "app/editor/window.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
+#include "app/trace/trace_document.h"
+#include "app/window/window.h"
 #include "planet/source/height_source.h"
 
 namespace worldy {
@@ -59,10 +60,10 @@ void saveIfChanged(const OpenSettings& open, const Settings& now, const Log& log
 }
 
 Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& settings) {
-    const bool fromSettings = options.file.empty() && !settings.dataSet.empty();
-    const fs::path named = !options.file.empty() ? options.file
-                           : fromSettings        ? fs::path(settings.dataSet)
-                                                 : earthWorld();
+    // A trace is shown beside the planet that is shown without it.
+    const bool isNamed = !options.file.empty() && !isTraceFile(options.file);
+    const bool fromSettings = !isNamed && !settings.dataSet.empty();
+    const fs::path named = isNamed ? options.file : fromSettings ? fs::path(settings.dataSet) : earthWorld();
     // The settings' own image is also the source of the colour tiles.
     const bool ownPicture = fromSettings && !settings.colourImage.empty();
     Result<DataSet> set =
@@ -95,6 +96,7 @@ int runWindow(Window& window, const AppOptions& options, CheckedData data, const
     session.shaders.worker = window.makeShaderWorker();
     Editor editor(open.settings, log);
     editor.keepItemMap(options.itemMapFile);
+    if (isTraceFile(options.file)) editor.openAtStart(options.file);
     auto last = std::chrono::steady_clock::now();
     while (!window.closing()) {
         const auto now = std::chrono::steady_clock::now();

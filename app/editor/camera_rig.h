@@ -6,10 +6,10 @@
 #include <functional>
 #include <optional>
 
-#include "app/editor/input.h"
 #include "app/flight/flight_path.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/scene.h"
+#include "app/window/input.h"
 #include "planet/base/result.h"
 #include "ui/model/editor_view.h"
 

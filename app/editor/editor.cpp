@@ -88,6 +88,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advanceEstimate(bakes_.estimator);
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
+    if (!files_.atStart.empty()) commands.push_back(ui::OpenTrace{std::exchange(files_.atStart, {})});
+    advanceTrace(files_.trace, secondsSinceLast, notices_.log);
     reloadChangedShaders(session, notices_.log);
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
                    notices_.log);
@@ -202,7 +204,8 @@ void Editor::drawPictures(Scene& scene) {
                              camera_,
                              chunks_.focus,
                              tintDataOf(bakes_.sources),
-                             bakes_.sources.reader.layers.get()};
+                             bakes_.sources.reader.layers.get(),
+                             files_.trace};
     drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), notices_.log);
     const bool counting = settings.compare.mode == CompareMode::Difference ||
                           isShown(settings_.settings.workspace, PanelId::Compare);
@@ -231,7 +234,8 @@ ui::EditorView Editor::view(Session& session) {
             .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
             .sweep = sweepViewOf(sweep_),
             .layers = layersViewOf(layers_, scene, settings.surface.layers),
-            .sources = sourcesViewOf(bakes_.sources, session)};
+            .sources = sourcesViewOf(bakes_.sources, session),
+            .trace = traceViewOf(files_.trace)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
@@ -284,6 +288,11 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
             [&](const ui::SourceCommand& c) {
                 worldy::execute(bakes_.sources, c, shownPlanet(session), settings_.settings.workspace,
                                 notices_, next);
+            },
+            [&](const ui::TraceCommand& c) {
+                const std::optional<double> radiusM =
+                    scene ? std::optional(scene->planet->tree().shape.radiusM) : std::nullopt;
+                worldy::execute(files_.trace, c, settings_.settings.workspace, radiusM, notices_, next);
             },
         },
         command.feature());

@@ -20,8 +20,8 @@
 #include "app/editor/settings_controller.h"
 #include "app/editor/sweep_controller.h"
 #include "app/editor/viewport.h"
-#include "app/editor/window.h"
 #include "app/editor/window_controller.h"
+#include "app/window/window.h"
 
 namespace worldy {
 
@@ -33,6 +33,9 @@ public:
     const Settings& settings() const { return settings_.settings; }
     // Writes the positions of controls into a file after each frame.
     void keepItemMap(const std::filesystem::path& file) { window_.itemMapFile = file; }
+
+    // Shows a trace from the first frame on. The file is a trace.
+    void openAtStart(const std::filesystem::path& trace) { files_.atStart = trace; }
 
     // Runs one frame: input, planet, panels, and the panels' commands. secondsSinceLast: >= 0.
     void runFrame(Window& window, Session& session, double secondsSinceLast);

@@ -9,6 +9,7 @@
 #include "app/flight/flight_record.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
+#include "app/trace/trace_document.h"
 #include "planet/source/terrain.h"
 
 namespace worldy {
@@ -50,12 +51,23 @@ bool openScreenshot(const std::filesystem::path& file, const FileContext& contex
     return true;
 }
 
+void keepRecent(FileController& files, Notices& notices) {
+    files.recentShown = shownRecentFiles(files.recent);
+    if (const auto saved = saveRecentFiles(files.recent, recentFilesFile()); !saved)
+        notices.log->error("{}", saved.error().message);
+}
+
 void open(FileController& files, const std::filesystem::path& file, const FileContext& context,
           Notices& notices, ui::Commands& next) {
     if (!planet::isTerrainText(file)) {
         if (file.extension() == ".toml" && !planet::isWorldFile(file))
             return openPreset(file, context, notices);
         if (isFlightRecord(file)) return next.push_back(ui::StartReplay{file});
+        if (isTraceFile(file)) {
+            addRecentFile(files.recent, file);
+            keepRecent(files, notices);
+            return next.push_back(ui::OpenTrace{file});
+        }
         if (file.extension() == ".png" && openScreenshot(file, context, notices)) return;
     }
     if (!openFile(context.session, file, context.settings.settings.view, notices.log)) {
@@ -105,9 +117,7 @@ bool followOpening(FileController& files, const Session& session, Notices& notic
 }
 
 void advanceFiles(FileController& files, const Session& session, Notices& notices) {
-    if (!followOpening(files, session, notices)) return;
-    if (const auto saved = saveRecentFiles(files.recent, recentFilesFile()); !saved)
-        notices.log->error("{}", saved.error().message);
+    if (followOpening(files, session, notices)) keepRecent(files, notices);
 }
 
 }  // namespace worldy

@@ -1,4 +1,4 @@
-// Opens files of all kinds and keeps the list of recent ones. Main thread.
+// Opens files of all kinds, keeps the list of recent ones, and holds the open trace. Main thread.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include "app/editor/notices.h"
 #include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
+#include "app/editor/trace_controller.h"
 #include "ui/model/commands.h"
 #include "ui/shell/open_dialog.h"
 
@@ -19,6 +20,8 @@ struct FileController {
     std::vector<std::filesystem::path> recent;       // as stored
     std::vector<std::filesystem::path> recentShown;  // those that exist
     ui::OpenDialogState dialog;
+    std::filesystem::path atStart{};  // a trace that the first frame opens; empty: none
+    TraceController trace{};          // the open trace, beside the planet
 };
 
 FileController openFileController();

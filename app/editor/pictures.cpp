@@ -20,6 +20,9 @@ std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Sel
 }
 
 void appendOutlines(const PictureInput& input, PictureContent& content) {
+    const planet::Lines nodes = traceLinesOf(input.trace, input.scene.planet->tree().shape.radiusM,
+                                             content.view.eyeM, input.settings.overlay);
+    content.frontLines.insert(content.frontLines.end(), nodes.begin(), nodes.end());
     if (!input.layers || !input.settings.overlay.sources) return;
     const planet::Lines lines = sourceLines(*input.layers, input.scene.planet->tree(), content.view);
     content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());

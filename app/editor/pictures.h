@@ -4,6 +4,7 @@
 
 #include "app/editor/camera_controller.h"
 #include "app/editor/instruments_controller.h"
+#include "app/editor/trace_controller.h"
 #include "app/editor/viewport.h"
 #include "app/scene/overlay_colours.h"
 #include "planet/source/source_layers.h"
@@ -17,6 +18,7 @@ struct PictureInput {
     const ChunkFocus& focus;
     TintData tints;                                // without the measurement
     const planet::SourceLayers* layers = nullptr;  // of the source; null: not known
+    const TraceController& trace;
 };
 // Draws the main picture, or the frame before or after a pop if the user has requested it. comparing: draws
 // without the fill light, like B.

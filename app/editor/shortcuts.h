@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/editor/window.h"
+#include "app/window/window.h"
 #include "ui/model/editor_view.h"
 #include "ui/shell/docks.h"
 #include "ui/shell/menu_bar.h"

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "app/base/log.h"
-#include "app/editor/input.h"
 #include "app/scene/scene.h"
+#include "app/window/input.h"
 #include "planet/gl/device/render_target.h"
 #include "planet/gl/draw/debug_lines.h"
 #include "planet/gl/draw/debug_shapes.h"

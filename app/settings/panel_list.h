@@ -28,7 +28,13 @@ enum class PanelId : std::uint8_t {
     Compare,
     Sweep,
     Light,
-    Sources
+    Sources,
+    Trace,
+    TraceNodes,
+    TraceNode,
+    TracePaging,
+    TraceFindings,
+    TraceWhatIf
 };
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
@@ -64,6 +70,12 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::Sweep, "Sweep", "sweep", "Ctrl+Shift+7", Dock::Bottom, false},
     {PanelId::Light, "Light", "light", "Ctrl+Shift+8", Dock::Right, true},
     {PanelId::Sources, "Sources", "sources", "Ctrl+Shift+9", Dock::Left, false},
+    {PanelId::Trace, "Trace", "trace", "Ctrl+T", Dock::Bottom, false},
+    {PanelId::TraceNodes, "Trace nodes", "trace_nodes", "Ctrl+Shift+N", Dock::Left, false},
+    {PanelId::TraceNode, "Trace node", "trace_node", "Ctrl+Shift+E", Dock::Right, false},
+    {PanelId::TracePaging, "Trace paging", "trace_paging", "Ctrl+Shift+P", Dock::Bottom, false},
+    {PanelId::TraceFindings, "Trace findings", "trace_findings", "Ctrl+Shift+F", Dock::Bottom, false},
+    {PanelId::TraceWhatIf, "What if", "trace_what_if", "Ctrl+Shift+W", Dock::Bottom, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

@@ -3,12 +3,17 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "app/trace/trace_what_if_job.h"
 #include "planet/planet.h"
 #include "planet/planet_tools.h"
 #include "tests/support/sudden_lod.h"
+#include "tests/support/traced_flight.h"
 #include "ui/shell/panels.h"
 
 namespace worldy::test {
@@ -60,11 +65,28 @@ public:
         view.instruments.allocations.mark = allocations();
         view.instruments.allocations.mark.process.heapBytes -= 3 << 20;
         view.instruments.allocations.mark.process.threads = 5;
+        if (traced_) {
+            view.trace.file = traced_->file;
+            view.trace.wanted = TracedFlight::plantedFirst;
+            view.trace.whatIf.result = &*traced_;
+        }
         if (!planet_->selection().draw.empty()) {
             view.focus.selected = planet_->selection().draw.front().id;
             view.focus.hovered = planet_->selection().draw.back().id;
         }
         return view;
+    }
+
+    // Writes a trace of another engine and selects in it again with some tolerances.
+    void trace(const std::filesystem::path& file) {
+        const TracedFlight flight(file);
+        TraceWhatIfRequest request;
+        for (const double tauPx : {0.5, 1.0, 2.0, 4.0, 8.0}) {
+            request.settings.emplace_back();
+            request.settings.back().tauPx = tauPx;
+        }
+        request.goal = planet::TraceTauGoal{.errorPx = 3, .bytes = 16e6};
+        if (auto found = runTraceWhatIf(file, request, {})) traced_ = *std::move(found);
     }
 
     ui::Allocations allocations() const {
@@ -107,6 +129,7 @@ private:
     planet::LodChanges changes_;
     FrameStats stats_;
     std::deque<ui::FrameSample> history_;
+    std::optional<TraceWhatIfResult> traced_;
     std::vector<ui::Bookmark> bookmarks_{{"Himalaya", {}, true}, {"My ridge", {}, false}};
     double timeS_ = 0;
 };

@@ -13,6 +13,7 @@
 #include "planet/gl/device/offscreen_context.h"
 #include "planet/gl/device/render_target.h"
 #include "tests/support/editor_fixture.h"
+#include "tests/support/temporary_folder.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -91,6 +92,8 @@ int run(int argumentCount, char** arguments) {
     }
     test::EditorFixture fixture(std::move(*planet));
     fixture.fly({}, 120);
+    const tests::TemporaryFolder folder;
+    fixture.trace(folder / "made engine.lodtrace");
     fixture.log_.push_back({LogLevel::Info, "14:03:22", "Open: earth.chk, 5.1 MiB on disk, 7 levels"});
     fixture.log_.push_back(
         {LogLevel::Error, "14:03:25", "earth.chk: block of z_pos/3/1/2: checksum is wrong"});

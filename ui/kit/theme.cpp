@@ -30,9 +30,9 @@ ImFont* loadFont(float sizePx) {
     constexpr const char* file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
     std::error_code status;
     if (!std::filesystem::exists(file, status)) return nullptr;
-    // The ranges are Latin, Greek, punctuation with dashes, and arrows.
-    static constexpr std::array<ImWchar, 9> ranges = {0x20,   0x17F,  0x370,  0x3FF, 0x2010,
-                                                      0x2027, 0x2190, 0x21FF, 0};
+    // The ranges are Latin, Greek, punctuation with dashes, arrows, and the signs of bounds.
+    static constexpr std::array<ImWchar, 11> ranges = {0x20,   0x17F,  0x370,  0x3FF,  0x2010, 0x2027,
+                                                       0x2190, 0x21FF, 0x2264, 0x2265, 0};
     return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, sizePx, nullptr, ranges.data());
 }
 

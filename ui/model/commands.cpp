@@ -18,6 +18,7 @@ Command::Command(RecordingCommand command) : feature_(std::move(command)) {}
 Command::Command(SweepCommand command) : feature_(std::move(command)) {}
 Command::Command(CompareCommand command) : feature_(std::move(command)) {}
 Command::Command(SourceCommand command) : feature_(std::move(command)) {}
+Command::Command(TraceCommand command) : feature_(std::move(command)) {}
 
 Command::Command(Command&&) noexcept = default;
 Command& Command::operator=(Command&&) noexcept = default;

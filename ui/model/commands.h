@@ -18,6 +18,7 @@
 #include "app/measure/pop_side.h"
 #include "app/measure/sweep_points.h"
 #include "app/settings/view_settings.h"
+#include "app/trace/trace_what_if_request.h"
 #include "planet/bake/bake.h"
 #include "planet/source/height_source.h"
 #include "planet/sphere/block_id.h"
@@ -257,10 +258,48 @@ struct DismissDrop {};
 using SourceCommand = std::variant<ReadSource, EditLayers, RevertLayers, BakeLayers, SaveLayers,
                                    AddDroppedFiles, OpenDroppedFiles, DismissDrop>;
 
+// Traces of other engines (planet/trace).
+struct OpenTrace {  // a file; replaces the trace that is shown
+    std::filesystem::path file;
+};
+struct AttachTrace {  // to an engine that listens on this machine
+    int port = 9910;  // [1, 65535]
+};
+struct DetachTrace {};  // what has arrived stays open as a file
+struct CloseTrace {};
+struct ShowTraceFrame {  // by number; the nearest one that the trace has
+    std::uint64_t frame = 0;
+};
+struct StepTrace {  // by frames, forwards or backwards
+    int frames = 1;
+};
+struct PlayTrace {
+    bool playing = false;
+    double speed = 1;    // of the engine's clock, > 0
+    bool newest = true;  // stays at the newest frame while an engine is attached
+};
+struct SelectTraceNode {
+    std::optional<std::uint64_t> id;  // none: clears the selection
+};
+struct SelectTraceView {
+    int view = 0;  // [0, 16)
+};
+struct ShowTraceOnPlanet {  // draws the drawn nodes over the open planet
+    bool shown = true;
+};
+struct LookAsTrace {};     // moves the camera to that of the traced view
+struct StartTraceWhatIf {  // over the whole trace, in the background
+    TraceWhatIfRequest request;
+};
+struct CancelTraceWhatIf {};
+using TraceCommand = std::variant<OpenTrace, AttachTrace, DetachTrace, CloseTrace, ShowTraceFrame, StepTrace,
+                                  PlayTrace, SelectTraceNode, SelectTraceView, ShowTraceOnPlanet, LookAsTrace,
+                                  StartTraceWhatIf, CancelTraceWhatIf>;
+
 using FeatureCommand =
     std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand, BakeCommand,
                  SettingsCommand, WindowCommand, LayerCommand, InstrumentCommand, RecordingCommand,
-                 SweepCommand, CompareCommand, SourceCommand>;
+                 SweepCommand, CompareCommand, SourceCommand, TraceCommand>;
 
 // FeatureOf<Kind> is the variant that holds a kind of command: FeatureOf<SelectChunk> is ChunkCommand.
 template <class Kind, class Features>
@@ -294,6 +333,7 @@ public:
     Command(SweepCommand command);
     Command(CompareCommand command);
     Command(SourceCommand command);
+    Command(TraceCommand command);
     Command(Command&&) noexcept;
     Command& operator=(Command&&) noexcept;
     ~Command();

@@ -30,6 +30,7 @@
 #include "ui/model/recording_view.h"
 #include "ui/model/sources_view.h"
 #include "ui/model/sweep_view.h"
+#include "ui/model/trace_view.h"
 
 namespace worldy::ui {
 
@@ -156,6 +157,7 @@ struct EditorView {
     SweepView sweep{};
     LayersView layers{};
     SourcesView sources{};
+    TraceView trace{};
 };
 
 }  // namespace worldy::ui

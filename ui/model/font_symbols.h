@@ -13,7 +13,7 @@ void setFontHasGreek(bool hasGreek);
 // Return "τ" and "ε", or "tau" and "eps" if the font has no Greek.
 const char* tauSymbol();
 const char* epsSymbol();
-// Returns the text with "τ", "ε", "δ" and "→" written out if the font lacks them: "δc" becomes "delta_c".
+// Returns the text with "τ", "ε", "δ", "→", "≤" and "≥" written out if the font lacks them: "δc" becomes "delta_c".
 std::string inFont(std::string text);
 
 }  // namespace worldy::ui

@@ -45,7 +45,7 @@ const char* greyUnless(bool unless, const char* why) {
 
 constexpr const char* noPlanet = "No planet is open.";
 
-void fileMenu(const EditorView& view, Commands& commands) {
+void fileMenu(const EditorView& view, Workspace& workspace, Commands& commands) {
     if (!beginMenu("File")) return;
     if (menuItem("Open...", "Ctrl+O")) commands.push_back(AskForFile{});
     if (beginMenu("Open recent", greyUnless(!view.data.recent.empty(), "No recent files."))) {
@@ -54,6 +54,7 @@ void fileMenu(const EditorView& view, Commands& commands) {
         }
         ImGui::EndMenu();
     }
+    if (menuItem("Attach to an engine...")) showPanel(PanelId::Trace, workspace);
     ImGui::Separator();
     if (menuItem("Screenshot", "F12", false, greyUnless(view.planet, noPlanet)))
         commands.push_back(TakeScreenshot{false});
@@ -254,7 +255,7 @@ float menuBarHeight() {
 void menuBar(const EditorView& view, MenuState& state, Workspace& workspace, ViewSettings& settings,
              Commands& commands) {
     if (!ImGui::BeginMainMenuBar()) return;
-    fileMenu(view, commands);
+    fileMenu(view, workspace, commands);
     editMenu(view, settings, commands);
     viewMenu(workspace);
     cameraMenu(view, settings, commands);

@@ -104,8 +104,9 @@ bool accept(OpenDialogState& state, Commands& commands) {
 
 bool mayBeOpened(const fs::path& file) {
     static constexpr std::array endings = std::to_array<std::string_view>(
-        {".chk", ".tif", ".tiff", ".hgt", ".dt0", ".dt1", ".dt2", ".asc", ".nc",   ".jp2",
-         ".img", ".bil", ".png",  ".pgm", ".exr", ".hdr", ".jpg", ".raw", ".toml", recordedFlightEnding});
+        {".chk", ".tif", ".tiff", ".hgt", ".dt0",  ".dt1",      ".dt2",
+         ".asc", ".nc",  ".jp2",  ".img", ".bil",  ".png",      ".pgm",
+         ".exr", ".hdr", ".jpg",  ".raw", ".toml", ".lodtrace", recordedFlightEnding});
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });

@@ -47,6 +47,18 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return lightPanel(view, settings, commands);
         case PanelId::Sources:
             return sourcesPanel(view, states.sources, settings, commands);
+        case PanelId::Trace:
+            return tracePanel(view, states.trace, commands);
+        case PanelId::TraceNodes:
+            return traceNodesPanel(view, states.traceNodes, commands);
+        case PanelId::TraceNode:
+            return traceNodePanel(view, commands);
+        case PanelId::TracePaging:
+            return tracePagingPanel(view, states.tracePaging, commands);
+        case PanelId::TraceFindings:
+            return traceFindingsPanel(view, states.traceFindings, commands);
+        case PanelId::TraceWhatIf:
+            return whatIfPanel(view, states.traceWhatIf, commands);
     }
 }
 

@@ -24,6 +24,12 @@
 #include "ui/panels/sources/sources_panel.h"
 #include "ui/panels/surface/surface_panel.h"
 #include "ui/panels/sweep/sweep_panel.h"
+#include "ui/panels/trace/trace_findings_panel.h"
+#include "ui/panels/trace/trace_node_panel.h"
+#include "ui/panels/trace/trace_nodes_panel.h"
+#include "ui/panels/trace/trace_paging_panel.h"
+#include "ui/panels/trace/trace_panel.h"
+#include "ui/panels/trace/what_if_panel.h"
 
 namespace worldy::ui {
 
@@ -43,6 +49,11 @@ struct PanelStates {
     ComparePanelState compare;
     SweepPanelState sweep;
     SourcesPanelState sources;
+    TracePanelState trace;
+    TraceNodesPanelState traceNodes;
+    TracePagingPanelState tracePaging;
+    TraceFindingsPanelState traceFindings;
+    WhatIfPanelState traceWhatIf;
 };
 
 // Fills the current window with a panel.

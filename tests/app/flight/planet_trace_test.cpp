@@ -6,6 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "app/trace/trace_history.h"
+#include "app/trace/traced_frame.h"
 #include "planet/measure/lod_changes.h"
 #include "planet/planet_tools.h"
 #include "planet/trace/trace_report.h"
@@ -173,6 +175,58 @@ TEST_F(PlanetTraces, reportCountsTheChangesThatThePanelCounts) {
     EXPECT_EQ(report.views[0].worstErrorPx, worst);
     EXPECT_EQ(report.views[0].tauPx, 1);
     EXPECT_EQ(report.description->name, "around");
+}
+
+// The trace panels read TracedFrame and TraceHistory, and the panels of a planet read its counters.
+TEST_F(PlanetTraces, tracePanelsShowTheNumbersOfThePlanetsPanels) {
+    fly();
+    auto file = planet::TraceFile::open(file_);
+    ASSERT_TRUE(file) << file.error().message;
+    planet::TraceState state;
+    TracedFrameBuilder builder;
+    TraceHistorian historian;
+    std::size_t frame = 0;
+    const planet::TraceDecoder::Sink sink = [&](const planet::TraceEvent& event) {
+        if (!state.add(event) || HasFatalFailure()) return;
+        ASSERT_LT(frame, frames_.size());
+        const ShownFrame& shown = frames_[frame++];
+        builder.add(state);
+        historian.add(state);
+        const auto traced = builder.build(state);
+        ASSERT_EQ(traced->views.size(), 1u);
+        const TracedView& view = traced->views[0];
+        EXPECT_EQ(view.drawn, shown.drawn.size());
+        EXPECT_NEAR(view.worstErrorPx, shown.worstEpsPx, 1e-6 * shown.worstEpsPx);
+        for (const TracedNode& node : view.nodes) {
+            const auto drawn = shown.drawn.find(node.node.id);
+            ASSERT_EQ(node.place == TracedPlace::Drawn, drawn != shown.drawn.end());
+            if (drawn == shown.drawn.end()) continue;
+            EXPECT_EQ(node.morph, drawn->second.morph);
+            const auto epsPx = static_cast<double>(drawn->second.epsPx);
+            EXPECT_NEAR(node.errorPx, epsPx, 1e-6 * epsPx);
+        }
+    };
+    ASSERT_TRUE(file->seek(0, sink));
+    for (auto more = file->next(sink); more && *more; more = file->next(sink)) {
+    }
+    ASSERT_EQ(frame, frames_.size());
+    const auto history = historian.history(state, true);
+    const std::vector<TracedViewSample>& samples = history->views.at(0);
+    ASSERT_EQ(samples.size(), frames_.size());
+    double splits = 0, merges = 0, arrived = 0, evicted = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        EXPECT_EQ(samples[i].drawn, static_cast<float>(frames_[i].drawn.size()));
+        EXPECT_FLOAT_EQ(samples[i].worstErrorPx, static_cast<float>(frames_[i].worstEpsPx));
+        splits += static_cast<double>(samples[i].splits);
+        merges += static_cast<double>(samples[i].merges);
+        arrived += static_cast<double>(history->samples[i].arrived);
+        evicted += static_cast<double>(history->samples[i].evicted);
+    }
+    EXPECT_EQ(splits, static_cast<double>(splits_));
+    EXPECT_EQ(merges, static_cast<double>(merges_));
+    EXPECT_EQ(arrived, static_cast<double>(frames_.back().loaded));
+    EXPECT_EQ(evicted, static_cast<double>(frames_.back().evicted));
+    EXPECT_EQ(history->switches.size(), splits_ + merges_);
 }
 
 TEST_F(PlanetTraces, selectionOfWorldyHasNoFaultOfItsOwn) {

@@ -10,6 +10,7 @@
 #include "app/base/text.h"
 #include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/marked_box.h"
 #include "ui/kit/source_readings.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
@@ -54,27 +55,6 @@ void idField(const EditorView& view, ChunkPanelState& state, Commands& commands)
     }
     if (state.problem.empty()) return;
     wrappedText(state.problem, palette().bad);
-}
-
-// Draws the state's colour and the reason for the state.
-void whyBox(const ChunkExplanation& explanation) {
-    const float pad = std::round(ImGui::GetFontSize() * 0.5f);
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    const std::string text = whyText(explanation);
-    const float textWidth = width - 3 * pad;
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, textWidth);
-    const ImVec2 end(corner.x + width, corner.y + size.y + 2 * pad);
-    ImDrawList& drawList = *ImGui::GetWindowDrawList();
-    drawList.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg), pad * 0.5f);
-    drawList.AddRectFilled(corner, {corner.x + pad * 0.6f, end.y},
-                           packed(asVector(stateColour(explanation.state))), pad * 0.5f);
-    ImGui::SetCursorScreenPos({corner.x + 2 * pad, corner.y + pad});
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + textWidth);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::SetCursorScreenPos({corner.x, end.y});
-    ImGui::Dummy({width, pad * 0.4f});
 }
 
 void buttons(const ChunkId& id, Commands& commands) {
@@ -386,7 +366,7 @@ void chunkPanel(const EditorView& view, ChunkPanelState& state, Commands& comman
     const planet::ChunkTree& tree = view.planet->tree();
     const bool resident = explanation.node < tree.nodes.size() && tree.nodes[explanation.node].heights;
     const ChunkNode* node = resident ? &tree.nodes[explanation.node] : nullptr;
-    whyBox(explanation);
+    markedBox(whyText(explanation), packed(asVector(stateColour(explanation.state))));
     buttons(explanation.id, commands);
     drawingRows(view, explanation, node);
     if (node && section("Error")) errorRows(explanation);

@@ -20,24 +20,6 @@ using planet::NodeIndex;
 
 namespace {
 
-struct NetCell {
-    int column, row;
-};
-constexpr std::array<NetCell, planet::faceCount> netCells = {
-    {{1, 1}, {3, 1}, {2, 1}, {0, 1}, {1, 0}, {1, 2}}};
-
-const NetCell& cellOf(planet::Face face) {
-    return netCells[static_cast<std::size_t>(face)];
-}
-
-// Margin around the whole net, in faces.
-constexpr double netMargin = 0.06;
-
-double fittingScalePx(const Rect& area) {
-    return std::max(1.0, std::min(static_cast<double>(area.width) / (netColumns + 2 * netMargin),
-                                  static_cast<double>(area.height) / (netRows + 2 * netMargin)));
-}
-
 constexpr bool isCulled(ChunkState state) {
     return state == ChunkState::CulledFrustum || state == ChunkState::CulledHorizon;
 }
@@ -343,52 +325,10 @@ std::optional<planet::FacePoint> facePointOnNet(const NetPoint& point) {
     return std::nullopt;
 }
 
-NetSquare netSquare(const ChunkId& id) {
-    const NetCell& cell = cellOf(id.face);
-    const double side = std::ldexp(1.0, -id.level);
-    return {cell.column + id.x * side, cell.row + 1 - (id.y + 1.0) * side, side};
-}
-
-NetPlacement placementOf(const NetFocus& focus, const Rect& area) {
-    NetPlacement placement;
-    placement.scalePx = fittingScalePx(area) * focus.zoom;
-    placement.originX =
-        static_cast<double>(area.x + area.width / 2) - focus.centreX * netColumns * placement.scalePx;
-    placement.originY =
-        static_cast<double>(area.y + area.height / 2) - focus.centreY * netRows * placement.scalePx;
-    return placement;
-}
-
-NetPoint onScreen(const NetPlacement& placement, const NetPoint& point) {
-    return {placement.originX + point.x * placement.scalePx, placement.originY + point.y * placement.scalePx};
-}
-
-NetPoint onNet(const NetPlacement& placement, double xPx, double yPx) {
-    return {(xPx - placement.originX) / placement.scalePx, (yPx - placement.originY) / placement.scalePx};
-}
-
-NetFocus movedBy(const NetFocus& focus, const Rect& area, double xPx, double yPx) {
-    const double scalePx = fittingScalePx(area) * focus.zoom;
-    return {focus.zoom, std::clamp(focus.centreX - xPx / (scalePx * netColumns), 0.0, 1.0),
-            std::clamp(focus.centreY - yPx / (scalePx * netRows), 0.0, 1.0)};
-}
-
-NetFocus zoomedAbout(const NetFocus& focus, const Rect& area, double xPx, double yPx, double factor) {
-    const NetPoint held = onNet(placementOf(focus, area), xPx, yPx);
-    NetFocus zoomed = focus;
-    zoomed.zoom = std::clamp(focus.zoom * factor, 1.0, netZoomMax);
-    if (zoomed.zoom == 1) return {};
-    const NetPoint now = onScreen(placementOf(zoomed, area), held);
-    return movedBy(zoomed, area, xPx - now.x, yPx - now.y);
-}
-
 NetFocus centredOn(const NetFocus& focus, const Rect& area, const ChunkId& id, double leastSidePx) {
     const NetSquare square = netSquare(id);
-    NetFocus centred = focus;
-    centred.zoom = std::clamp(leastSidePx / (fittingScalePx(area) * square.side), focus.zoom, netZoomMax);
-    centred.centreX = (square.x + square.side / 2) / netColumns;
-    centred.centreY = (square.y + square.side / 2) / netRows;
-    return centred;
+    const NetPoint middle{square.x + square.side / 2, square.y + square.side / 2};
+    return centredOn(netSize, focus, area, middle, square.side, leastSidePx);
 }
 
 std::vector<ChunkState> visitedStates(const planet::ChunkTree& tree, const planet::Selection& selection) {
@@ -459,7 +399,7 @@ void fillNetRects(const NetData& data, const NetPlacement& placement, const Rect
 }
 
 std::optional<NetHit> netHit(const NetData& data, const NetPlacement& placement, double xPx, double yPx) {
-    const std::optional<planet::FacePoint> point = facePointOnNet(onNet(placement, xPx, yPx));
+    const std::optional<planet::FacePoint> point = facePointOnNet(onPlan(placement, xPx, yPx));
     if (!point) return std::nullopt;
     auto index = static_cast<NodeIndex>(point->face);
     ChunkState above = ChunkState::Resident;

@@ -1,12 +1,5 @@
-// The six faces as an unfolded cube, the net, on which every chunk is a square: its layout, the state of each
-// chunk, and the coloured rectangles that show it. Pure functions, no ImGui.
-//
-//          z_pos
-//   y_neg  x_pos  y_pos  x_neg
-//          z_neg
-//
-// Every face stands upright, so neighbours across the edges that faces share in the net are neighbours on the
-// planet: the middle row is the equator from 135 degrees west, with north up.
+// The net of faces (ui/model/net_cells.h) with the state of each chunk, and the coloured rectangles that show it. Pure
+// functions, no ImGui.
 #pragma once
 
 #include <cstdint>
@@ -18,51 +11,19 @@
 
 #include "planet/chunk_explanation.h"
 #include "planet/planet.h"
-#include "ui/model/layout.h"
+#include "ui/model/net_cells.h"
 #include "ui/model/table_order.h"
 
 namespace worldy::ui {
 
-inline constexpr int netColumns = 4;
-inline constexpr int netRows = 3;
-
-// A point in units of faces from the net's top left: x to the right in [0, 4], y down in [0, 3].
-struct NetPoint {
-    double x = 0;
-    double y = 0;
-};
+using NetPoint = PlanPoint;  // in faces, x in [0, 4], y in [0, 3]
+using NetFocus = PlanFocus;
+using NetPlacement = PlanPlacement;
 NetPoint netPoint(const planet::FacePoint& point);
 NetPoint netPointOfDirection(const glm::dvec3& direction);
 // Returns none for a point outside the faces.
 std::optional<planet::FacePoint> facePointOnNet(const NetPoint& point);
 
-struct NetSquare {
-    double x = 0;  // of the top left, in faces
-    double y = 0;
-    double side = 1;
-};
-NetSquare netSquare(const planet::ChunkId& id);
-
-// The part of the net that is in view. zoom 1: all of it.
-struct NetFocus {
-    double zoom = 1;       // [1, netZoomMax]
-    double centreX = 0.5;  // share of the net's width and height in the middle of the area, [0, 1]
-    double centreY = 0.5;
-};
-inline constexpr double netZoomMax = 65536;
-
-// The placement of the net on the screen.
-struct NetPlacement {
-    double scalePx = 1;  // side of a face, pixels
-    double originX = 0;  // of the net's top left, pixels
-    double originY = 0;
-};
-NetPlacement placementOf(const NetFocus& focus, const Rect& area);
-NetPoint onScreen(const NetPlacement& placement, const NetPoint& point);  // in pixels
-NetPoint onNet(const NetPlacement& placement, double xPx, double yPx);
-// Zooms; the point of the net under the pointer stays under it.
-NetFocus zoomedAbout(const NetFocus& focus, const Rect& area, double xPx, double yPx, double factor);
-NetFocus movedBy(const NetFocus& focus, const Rect& area, double xPx, double yPx);
 // Centres a chunk, and zooms in if needed until its side is at least leastSidePx.
 NetFocus centredOn(const NetFocus& focus, const Rect& area, const planet::ChunkId& id, double leastSidePx);
 

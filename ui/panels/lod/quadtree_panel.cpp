@@ -11,6 +11,7 @@
 #include "app/base/text.h"
 #include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/legend_rows.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -52,28 +53,6 @@ Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, cons
                              static_cast<std::uint32_t>(deepestLevelOf(view.planet->tree().shape)));
     if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // uses delta_c's scale
     return legend;
-}
-
-// Draws swatches with labels, as many per row as fit.
-void legendRows(const Legend& legend) {
-    const float font = ImGui::GetFontSize();
-    const float swatch = std::round(font * 0.75f);
-    const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {std::round(font * 0.8f), std::round(font * 0.1f)});
-    bool first = true;
-    for (const LegendEntry& entry : legend.entries) {
-        const float width = swatch * 1.5f + ImGui::CalcTextSize(entry.label.c_str()).x;
-        if (!first && ImGui::GetItemRectMax().x + font * 0.8f + width <= right) ImGui::SameLine();
-        first = false;
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float top = std::round(at.y + (font - swatch) / 2);
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + swatch, top + swatch},
-                                                  packed(entry.colour), 2);
-        ImGui::Dummy({width, font});
-        ImGui::GetWindowDrawList()->AddText({at.x + swatch * 1.5f, at.y}, packed(palette().dim),
-                                            entry.label.c_str());
-    }
-    ImGui::PopStyleVar();
 }
 
 void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
@@ -212,14 +191,15 @@ void netMouse(const NetData& data, const Rect& area, QuadtreePanelState& state, 
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left)) state.dragging = true;
     if (ImGui::IsItemActive() && state.dragging) {
         const ImVec2 moved = dragDelta(ImGuiMouseButton_Left);
-        state.focus = movedBy(state.focus, area, static_cast<double>(moved.x), static_cast<double>(moved.y));
+        state.focus =
+            movedBy(netSize, state.focus, area, static_cast<double>(moved.x), static_cast<double>(moved.y));
     }
     if (!ImGui::IsItemHovered()) return;
     ImGui::SetItemUsingMouseWheel();
     if (io.MouseWheel != 0)
         state.focus =
-            zoomedAbout(state.focus, area, x, y, std::pow(1.35, static_cast<double>(io.MouseWheel)));
-    const auto hit = netHit(data, placementOf(state.focus, area), x, y);
+            zoomedAbout(netSize, state.focus, area, x, y, std::pow(1.35, static_cast<double>(io.MouseWheel)));
+    const auto hit = netHit(data, placementOf(netSize, state.focus, area), x, y);
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         if (hit)
             commands.emplace_back(LookAtChunk{hit->id});
@@ -244,7 +224,7 @@ void net(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanel
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     drawList.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg, 0.5f));
     ImGui::PushClipRect(corner, end, true);
-    const NetPlacement placement = placementOf(state.focus, area);
+    const NetPlacement placement = placementOf(netSize, state.focus, area);
     fillNetRects(data, placement, area, colouringOf(state, overlay), state.rects);
     drawRects(drawList, state.rects);
     faceNames(drawList, placement);
@@ -376,15 +356,15 @@ void quadtreePanel(const EditorView& view, QuadtreePanelState& state, ViewSettin
                       std::max(ImGui::GetContentRegionAvail().y, 12 * font));
     // The net's aspect ratio is 4:3; a list beside it needs about 20 letters.
     const bool beside = room.x > room.y && room.x > 44 * font;
-    ImVec2 netSize = room;
-    if (state.showTree && beside) netSize.x = std::max(room.x - 24 * font, room.x * 0.5f);
+    ImVec2 netPx = room;
+    if (state.showTree && beside) netPx.x = std::max(room.x - 24 * font, room.x * 0.5f);
     if (state.showTree && !beside)
-        netSize.y = std::min(room.x * netRows / netColumns, std::max(room.y - 9 * font, 8 * font));
-    net(view, data, netSize, state, settings.overlay, commands);
+        netPx.y = std::min(room.x * netRows / netColumns, std::max(room.y - 9 * font, 8 * font));
+    net(view, data, netPx, state, settings.overlay, commands);
     if (!state.showTree) return;
     if (beside) ImGui::SameLine();
     const ImVec2 listSize(beside ? 0 : room.x,
-                          beside ? room.y : std::max(room.y - netSize.y - spacing.y, 6 * font));
+                          beside ? room.y : std::max(room.y - netPx.y - spacing.y, 6 * font));
     treeList(view, data, listSize, state, commands);
 }
 

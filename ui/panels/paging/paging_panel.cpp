@@ -153,14 +153,14 @@ void residentMemory(const EditorView& view) {
     if (hasNormals(view)) normalMemory(view);
 }
 
-double asNumber(std::uint64_t value) {
+double countNumber(std::uint64_t value) {
     return static_cast<double>(value);
 }
 std::string countCell(std::uint64_t value) {
-    return countText(asNumber(value));
+    return countText(countNumber(value));
 }
 std::string bytesCell(std::uint64_t value) {
-    return bytesText(asNumber(value));
+    return bytesText(countNumber(value));
 }
 
 void totalsByKind(const FrameStats& stats) {
@@ -187,9 +187,10 @@ void totalsByKind(const FrameStats& stats) {
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const KindTotals& of = kinds[row];
         if (column == 0) return std::string(of.kind);
-        const std::array<double, 7> values = {
-            asNumber(of.loaded),   asNumber(of.evicted), asNumber(of.failed),     asNumber(of.bytesRead),
-            asNumber(of.resident), asNumber(of.tiles),   asNumber(of.budgetWaits)};
+        const std::array<double, 7> values = {countNumber(of.loaded),     countNumber(of.evicted),
+                                              countNumber(of.failed),     countNumber(of.bytesRead),
+                                              countNumber(of.resident),   countNumber(of.tiles),
+                                              countNumber(of.budgetWaits)};
         return values[column - 1];
     };
     tableRows(kinds.size(), key, [&](std::size_t row) {

@@ -144,7 +144,7 @@ ListRequest layerList(const EditorView& view, const std::vector<LayerRow>& rows,
     return request;
 }
 
-void moveLayer(WorldEdit& edit, std::size_t from, std::size_t to) {
+void moveSourceLayer(WorldEdit& edit, std::size_t from, std::size_t to) {
     if (from >= edit.layers.size() || to >= edit.layers.size() || from == to) return;
     planet::WorldLayer layer = std::move(edit.layers[from]);
     edit.layers.erase(edit.layers.begin() + static_cast<std::ptrdiff_t>(from));
@@ -159,7 +159,7 @@ void obeyList(const EditorView& view, const std::vector<LayerRow>& rows, const L
     WorldEdit edit = *view.sources.edit;
     if (request.switched) edit.layers[*request.switched].on = !edit.layers[*request.switched].on;
     if (request.moved) {
-        moveLayer(edit, request.moved->first, request.moved->second);
+        moveSourceLayer(edit, request.moved->first, request.moved->second);
         state.chosen = request.moved->second;
     }
     commands.emplace_back(EditLayers{std::move(edit)});

@@ -11,6 +11,7 @@
 #include "app/base/text.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/tau_list.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
@@ -59,20 +60,6 @@ void flightControl(const Flights& flights, SweepPanelState& state) {
     combo("Flight", index, names.c_str());
     tooltip(explanation);
     state.flight = flights[static_cast<std::size_t>(index)].string();
-}
-
-TauList tausControl(SweepPanelState& state) {
-    const std::string explanation = fmt::format(
-        "Tolerances to measure, in pixels, in [{}, {}], separated by spaces or commas. Each is combined with "
-        "each metric and chunk size.",
-        smallestTauPx, largestTauPx);
-    labelledControl(fmt::format("{}, px", tauSymbol()).c_str(), explanation.c_str());
-    ImGui::InputText("##taus", state.taus.data(), state.taus.size());
-    noteItem("Tolerances");
-    tooltip(explanation.c_str());
-    TauList taus = tausFromText(state.taus.data());
-    if (!taus.problem.empty()) wrappedText(taus.problem, palette().bad);
-    return taus;
 }
 
 // Returns why a size cannot be swept; empty if it can.
@@ -311,7 +298,7 @@ std::optional<Asked> requestControls(const EditorView& view, SweepPanelState& st
         return std::nullopt;
     }
     flightControl(flights, state);
-    TauList taus = tausControl(state);
+    TauList taus = tauListControl(state.taus, "Each is combined with each metric and chunk size.");
     SweepRequest request;
     request.flight = state.flight;
     request.tausPx = taus.tausPx;

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "app/base/text.h"
+#include "ui/kit/front_chart.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plots.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
-#include "ui/panels/sweep/sweep_chart.h"
 
 namespace worldy::ui {
 
@@ -77,7 +78,7 @@ void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
     noteItem(fmt::format("Row {}", index));
     ImGui::PopID();
     const float line = ImGui::GetTextLineHeight();
-    sweepMark({at.x + line * 0.5f, at.y + line * 0.5f}, colour, point.onFront);
+    frontMark({at.x + line * 0.5f, at.y + line * 0.5f}, colour, point.onFront);
     ImGui::SameLine(line * 1.2f);
     for (const SweepColumn& column : sweepColumns) {
         if (&column != &sweepColumns.front()) ImGui::TableNextColumn();
@@ -105,7 +106,7 @@ void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& 
         return sweepColumns[column].value(points[row]);
     };
     for (const std::size_t i : tableOrder(points.size(), chosenSort(), key))
-        pointRow(points[i], i, sweepColour(seriesIndex[i]), selected);
+        pointRow(points[i], i, seriesColour(seriesIndex[i]), selected);
     ImGui::EndTable();
 }
 

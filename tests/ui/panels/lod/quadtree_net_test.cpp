@@ -107,7 +107,7 @@ TEST(QuadtreeNet, ChunksLieWhereTheirMiddlesDo) {
 }
 
 TEST(QuadtreeNet, AllOfItFitsAtZoomOne) {
-    const NetPlacement placement = placementOf({}, area);
+    const NetPlacement placement = placementOf(netSize, {}, area);
     const NetPoint low = onScreen(placement, {0, 0});
     const NetPoint high = onScreen(placement, {netColumns, netRows});
     EXPECT_GE(low.x, 10);
@@ -118,26 +118,26 @@ TEST(QuadtreeNet, AllOfItFitsAtZoomOne) {
 
 TEST(QuadtreeNet, ZoomKeepsWhatIsUnderThePointer) {
     const NetFocus start{4, 0.4, 0.6};
-    const NetPoint before = onNet(placementOf(start, area), 300, 250);
-    const NetFocus zoomed = zoomedAbout(start, area, 300, 250, 8);
-    const NetPoint after = onNet(placementOf(zoomed, area), 300, 250);
+    const NetPoint before = onPlan(placementOf(netSize, start, area), 300, 250);
+    const NetFocus zoomed = zoomedAbout(netSize, start, area, 300, 250, 8);
+    const NetPoint after = onPlan(placementOf(netSize, zoomed, area), 300, 250);
     EXPECT_DOUBLE_EQ(zoomed.zoom, 32);
     EXPECT_NEAR(after.x, before.x, 1e-9);
     EXPECT_NEAR(after.y, before.y, 1e-9);
 }
 
 TEST(QuadtreeNet, ZoomAndPanStayWithinTheNet) {
-    EXPECT_DOUBLE_EQ(zoomedAbout({1, 0.5, 0.5}, area, 300, 250, 0.1).zoom, 1);
-    EXPECT_DOUBLE_EQ(zoomedAbout({netZoomMax, 0.5, 0.5}, area, 300, 250, 9).zoom, netZoomMax);
-    EXPECT_DOUBLE_EQ(movedBy({2, 0.5, 0.5}, area, 1e6, -1e6).centreX, 0);
-    EXPECT_DOUBLE_EQ(movedBy({2, 0.5, 0.5}, area, 1e6, -1e6).centreY, 1);
+    EXPECT_DOUBLE_EQ(zoomedAbout(netSize, {1, 0.5, 0.5}, area, 300, 250, 0.1).zoom, 1);
+    EXPECT_DOUBLE_EQ(zoomedAbout(netSize, {planZoomMax, 0.5, 0.5}, area, 300, 250, 9).zoom, planZoomMax);
+    EXPECT_DOUBLE_EQ(movedBy(netSize, {2, 0.5, 0.5}, area, 1e6, -1e6).centreX, 0);
+    EXPECT_DOUBLE_EQ(movedBy(netSize, {2, 0.5, 0.5}, area, 1e6, -1e6).centreY, 1);
 }
 
 TEST(QuadtreeNet, ACentredChunkIsInTheMiddleAndLargeEnough) {
     const ChunkId id{Face::NegZ, 9, 300, 17};
     const NetFocus focus = centredOn({}, area, id, 40);
     const NetSquare square = netSquare(id);
-    const NetPlacement placement = placementOf(focus, area);
+    const NetPlacement placement = placementOf(netSize, focus, area);
     const NetPoint middle = onScreen(placement, {square.x + square.side / 2, square.y + square.side / 2});
     EXPECT_NEAR(middle.x, 410, 1e-6);
     EXPECT_NEAR(middle.y, 320, 1e-6);
@@ -203,7 +203,7 @@ std::optional<std::uint32_t> seenAt(const std::vector<NetRect>& rects, double x,
 TEST(QuadtreeNet, WhatIsSeenAtAChunkIsItsStateAndThePointerFindsIt) {
     const Fixture fixture(4);
     const NetData data = fixture.data();
-    const NetPlacement placement = placementOf({}, area);
+    const NetPlacement placement = placementOf(netSize, {}, area);
     std::vector<NetRect> rects;
     fillNetRects(data, placement, area, {}, rects);
     std::size_t compared = 0;
@@ -230,7 +230,7 @@ TEST(QuadtreeNet, ADrawnChunkFramesItsResidentChildren) {
     const Fixture fixture(1000);  // so coarse that roots are drawn
     const NetData data = fixture.data();
     ASSERT_EQ(data.visited[0], ChunkState::Drawn);
-    const NetPlacement placement = placementOf({}, area);
+    const NetPlacement placement = placementOf(netSize, {}, area);
     const NetPoint corner = onScreen(placement, {1, 1});
     const auto onFrame = netHit(data, placement, corner.x + 1.5, corner.y + 50);
     const auto inside = netHit(data, placement, corner.x + 20, corner.y + 50);
@@ -251,7 +251,7 @@ TEST(QuadtreeNet, MissingChildrenAreMarkedInsideTheirQuarters) {
     fixture.tree.nodes[6].childrenState = planet::ChildrenState::Requested;
     selectChunks(fixture.tree, fixture.view, {.tauPx = 20}, fixture.selection);
     const NetData data = fixture.data();
-    const NetPlacement placement = placementOf({}, area);
+    const NetPlacement placement = placementOf(netSize, {}, area);
     const ChunkId child = childOf(fixture.tree.nodes[6].id, 2);
     const NetSquare square = netSquare(child);
     const NetPoint middle = onScreen(placement, {square.x + square.side / 2, square.y + square.side / 2});
@@ -271,15 +271,15 @@ TEST(QuadtreeNet, OnlyWhatIsInTheAreaAndLargeEnoughIsDrawn) {
     const Fixture fixture;
     std::vector<NetRect> rects;
     // 800 pixels hold 4 faces of about 190: all 6 * 256 leaves.
-    fillNetRects(fixture.data(), placementOf({}, area), area, {}, rects);
+    fillNetRects(fixture.data(), placementOf(netSize, {}, area), area, {}, rects);
     EXPECT_GE(rects.size(), 6u * 256);
     // As small as a stamp, faces stand for what is below them.
     const Rect stamp{0, 0, 24, 20};
-    fillNetRects(fixture.data(), placementOf({}, stamp), stamp, {}, rects);
+    fillNetRects(fixture.data(), placementOf(netSize, {}, stamp), stamp, {}, rects);
     EXPECT_LE(rects.size(), 6u);
     // Close up there is nothing but what is near.
     const NetFocus close = centredOn({}, area, {Face::PosX, 4, 5, 5}, 400);
-    fillNetRects(fixture.data(), placementOf(close, area), area, {}, rects);
+    fillNetRects(fixture.data(), placementOf(netSize, close, area), area, {}, rects);
     EXPECT_GT(rects.size(), 0u);
     EXPECT_LE(rects.size(), 40u);
     for (const NetRect& rect : rects) {
@@ -291,7 +291,7 @@ TEST(QuadtreeNet, OnlyWhatIsInTheAreaAndLargeEnoughIsDrawn) {
 TEST(QuadtreeNet, WhatIsNotDrawnIsDimmerUnlessStatesAreShown) {
     const Fixture fixture(4);
     const NetData data = fixture.data();
-    const NetPlacement placement = placementOf({}, area);
+    const NetPlacement placement = placementOf(netSize, {}, area);
     for (const NetColour by :
          {NetColour::Level, NetColour::Error, NetColour::DeltaC, NetColour::Age, NetColour::Tight}) {
         std::vector<NetRect> rects;

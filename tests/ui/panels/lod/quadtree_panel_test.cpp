@@ -37,7 +37,7 @@ protected:
     // The middle of a chunk's square on the screen.
     ImVec2 middleOf(const planet::ChunkId& id) const {
         const NetSquare square = netSquare(id);
-        const NetPoint at = onScreen(placementOf(state_.focus, state_.area),
+        const NetPoint at = onScreen(placementOf(netSize, state_.focus, state_.area),
                                      {square.x + 0.45 * square.side, square.y + 0.55 * square.side});
         return {static_cast<float>(at.x), static_cast<float>(at.y)};
     }
@@ -92,13 +92,13 @@ TEST_F(QuadtreePanel, ADragMovesTheNetAndSelectsNothing) {
     frame();
     press(true);
     frame();
-    const NetPoint held = onNet(placementOf(state_.focus, state_.area), static_cast<double>(start.x),
-                                static_cast<double>(start.y));
+    const NetPoint held = onPlan(placementOf(netSize, state_.focus, state_.area),
+                                 static_cast<double>(start.x), static_cast<double>(start.y));
     pointAt({start.x + 30, start.y - 20});
     frame();
     frame();
-    const NetPoint now = onNet(placementOf(state_.focus, state_.area), static_cast<double>(start.x + 30),
-                               static_cast<double>(start.y - 20));
+    const NetPoint now = onPlan(placementOf(netSize, state_.focus, state_.area),
+                                static_cast<double>(start.x + 30), static_cast<double>(start.y - 20));
     EXPECT_NEAR(now.x, held.x, 1e-6) << toString(id);
     EXPECT_NEAR(now.y, held.y, 1e-6);
     press(false);
@@ -110,8 +110,8 @@ TEST_F(QuadtreePanel, TheWheelZoomsAboutThePointer) {
     const ImVec2 middle = middleOf(farRoot());
     const ImVec2 at(std::floor(middle.x), std::floor(middle.y));  // ImGui's pointer is on whole pixels
     const auto under = [&] {
-        return onNet(placementOf(state_.focus, state_.area), static_cast<double>(at.x),
-                     static_cast<double>(at.y));
+        return onPlan(placementOf(netSize, state_.focus, state_.area), static_cast<double>(at.x),
+                      static_cast<double>(at.y));
     };
     pointAt(at);
     frame();

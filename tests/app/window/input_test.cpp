@@ -1,4 +1,4 @@
-#include "app/editor/input.h"
+#include "app/window/input.h"
 
 #include <gtest/gtest.h>
 

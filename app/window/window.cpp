@@ -1,4 +1,4 @@
-#include "app/editor/window.h"
+#include "app/window/window.h"
 
 #include <epoxy/gl.h>
 // Must follow epoxy, which provides the GL declarations.
@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "app/base/stopwatch.h"
-#include "app/editor/input_queue.h"
+#include "app/window/input_queue.h"
 #include "ui/kit/theme.h"
 
 namespace worldy {

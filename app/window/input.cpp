@@ -1,4 +1,4 @@
-#include "app/editor/input.h"
+#include "app/window/input.h"
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>

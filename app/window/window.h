@@ -57,7 +57,7 @@ public:
     void endFrame(const std::function<void()>& drawn);
 
     // Returns the keys pressed or repeated in this frame, the same that ImGui sees. Input is handed out frame
-    // by frame (app/editor/input_queue.h), so a key released before a slow frame begins is not lost.
+    // by frame (app/window/input_queue.h), so a key released before a slow frame begins is not lost.
     const std::vector<KeyPress>& pressedKeys() const;
     // Returns the number of key and button events that wait for the next frames.
     std::size_t queuedInput() const;

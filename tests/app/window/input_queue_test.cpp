@@ -1,4 +1,4 @@
-#include "app/editor/input_queue.h"
+#include "app/window/input_queue.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>

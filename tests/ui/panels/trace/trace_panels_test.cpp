@@ -1,0 +1,159 @@
+// The trace panels show what the trace says, and their controls ask for it.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "app/trace/trace_document.h"
+#include "tests/support/panel_fixture.h"
+#include "tests/support/small_trace.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/shell/panels.h"
+
+namespace worldy::ui {
+namespace {
+
+using test::smallTraceId;
+
+class TracePanels : public testing::Test {
+protected:
+    TracePanels() : file_(folder_.path() / "small.lodtrace"), window_({1200, 700}) {
+        test::writeSmallTrace(file_);
+        document_ = std::make_unique<TraceDocument>(file_, false);
+        show(16);
+    }
+    void show(std::uint64_t number) {
+        document_->show(number);
+        for (int i = 0; i < 6000; ++i) {
+            if (!document_->isBusy() && document_->history() && document_->history()->isComplete) break;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        frame_ = document_->frame();
+        history_ = document_->history();
+        ASSERT_TRUE(frame_ && history_);
+    }
+    EditorView view() {
+        EditorView view{.frames = {.stats = stats_, .history = frames_},
+                        .log = log_,
+                        .instruments = {.changes = changes_}};
+        view.trace = trace_;
+        if (isOpen_) {
+            view.trace.file = file_;
+            view.trace.frame = frame_.get();
+            view.trace.history = history_.get();
+        }
+        return view;
+    }
+    Commands draw(PanelId panel) {
+        Commands commands;
+        for (int i = 0; i < 3; ++i)
+            window_.frame([&] { drawPanel(panel, view(), states_, settings_, commands); });
+        return commands;
+    }
+    Commands click(PanelId panel, const char* item) {
+        draw(panel);
+        Commands commands;
+        window_.click(item, 0.5f, [&] {
+            window_.frame([&] { drawPanel(panel, view(), states_, settings_, commands); });
+        });
+        return commands;
+    }
+    template <class Kind>
+    static std::optional<Kind> find(const Commands& commands) {
+        for (const Command& command : commands)
+            if (const Kind* const found = command.as<Kind>()) return *found;
+        return std::nullopt;
+    }
+
+    const tests::TemporaryFolder folder_;
+    const std::filesystem::path file_;
+    PanelWindow window_;
+    std::unique_ptr<TraceDocument> document_;
+    std::shared_ptr<const TracedFrame> frame_;
+    std::shared_ptr<const TraceHistory> history_;
+    TraceView trace_{.newest = false};
+    bool isOpen_ = true;
+    PanelStates states_;
+    ViewSettings settings_;
+    FrameStats stats_;
+    std::deque<FrameSample> frames_;
+    std::deque<LogLine> log_;
+    planet::LodChanges changes_;
+};
+
+constexpr std::array tracePanels = {PanelId::Trace,       PanelId::TraceNodes,    PanelId::TraceNode,
+                                    PanelId::TracePaging, PanelId::TraceFindings, PanelId::TraceWhatIf};
+
+TEST_F(TracePanels, drawWithoutATraceAndInAnySize) {
+    for (const ImVec2 size : {ImVec2(1200, 700), ImVec2(330, 400), ImVec2(60, 40)}) {
+        PanelWindow::resize(size);
+        for (const bool isOpen : {true, false}) {
+            isOpen_ = isOpen;
+            for (const PanelId panel : tracePanels)
+                EXPECT_TRUE(draw(panel).empty()) << static_cast<int>(panel);
+        }
+    }
+}
+
+TEST_F(TracePanels, attachAsksForThePort) {
+    const Commands commands = click(PanelId::Trace, "Attach");
+    ASSERT_TRUE(find<AttachTrace>(commands));
+    EXPECT_EQ(find<AttachTrace>(commands)->port, 9910);
+    trace_.link = {.isOn = true, .port = 9910, .message = "waits"};
+    EXPECT_TRUE(find<DetachTrace>(click(PanelId::Trace, "Detach")));
+}
+
+TEST_F(TracePanels, transportMovesThroughTheFrames) {
+    EXPECT_EQ(find<StepTrace>(click(PanelId::Trace, "Next")).value_or(StepTrace{0}).frames, 1);
+    EXPECT_EQ(find<StepTrace>(click(PanelId::Trace, "Back")).value_or(StepTrace{0}).frames, -1);
+    EXPECT_EQ(find<ShowTraceFrame>(click(PanelId::Trace, "Last")).value_or(ShowTraceFrame{}).frame,
+              test::smallTraceFrames);
+    EXPECT_TRUE(find<PlayTrace>(click(PanelId::Trace, "Play")).value_or(PlayTrace{}).playing);
+    // The middle of the timeline is half of the time: 6 s of a clock of 10 Hz, from 0.1 s on.
+    const auto shown = find<ShowTraceFrame>(click(PanelId::Trace, "Timeline"));
+    ASSERT_TRUE(shown);
+    EXPECT_NEAR(static_cast<double>(shown->frame), 30, 1);
+}
+
+TEST_F(TracePanels, clickInTheNetSelectsTheNodeThere) {
+    show(30);
+    const Commands commands = click(PanelId::TraceNodes, "Nodes");
+    // The middle belongs to one of the four children.
+    ASSERT_TRUE(find<SelectTraceNode>(commands));
+    ASSERT_TRUE(find<SelectTraceNode>(commands).value_or(SelectTraceNode{}).id);
+    EXPECT_NE(*find<SelectTraceNode>(commands).value_or(SelectTraceNode{}).id, smallTraceId(0, 0, 0));
+}
+
+TEST_F(TracePanels, everyLayoutAndColouringDraws) {
+    for (int layout = 0; layout < 4; ++layout) {
+        for (int colouring = 0; colouring < 4; ++colouring) {
+            draw(PanelId::TraceNodes);  // chooses the layout of the file
+            states_.traceNodes.layout = static_cast<TraceLayout>(layout);
+            states_.traceNodes.colouring = static_cast<TraceColouring>(colouring);
+            trace_.selected = smallTraceId(0, 0, 0);
+            draw(PanelId::TraceNodes);
+            EXPECT_EQ(states_.traceNodes.plan.problem, "");
+        }
+    }
+}
+
+TEST_F(TracePanels, clickOnASwitchShowsItsFrameAndItsNode) {
+    draw(PanelId::TraceFindings);
+    click(PanelId::TraceFindings, "Switches");
+    const Commands commands = click(PanelId::TraceFindings, "Switch 1");
+    ASSERT_TRUE(find<ShowTraceFrame>(commands));
+    EXPECT_EQ(find<ShowTraceFrame>(commands).value_or(ShowTraceFrame{}).frame, 41u);
+    EXPECT_EQ(find<SelectTraceNode>(commands).value_or(SelectTraceNode{}).id, smallTraceId(1, 0, 0));
+}
+
+TEST_F(TracePanels, theWorstNodeIsAClickAway) {
+    trace_.selected = smallTraceId(1, 0, 0);
+    EXPECT_EQ(find<SelectTraceNode>(click(PanelId::TraceNode, "Worst node")).value_or(SelectTraceNode{}).id,
+              smallTraceId(0, 0, 0));
+    EXPECT_EQ(find<SelectTraceNode>(click(PanelId::TraceNode, "Parent")).value_or(SelectTraceNode{}).id,
+              smallTraceId(0, 0, 0));
+}
+
+}  // namespace
+}  // namespace worldy::ui

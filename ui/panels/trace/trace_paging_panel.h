@@ -1,0 +1,15 @@
+// The Trace paging panel: the queue of the shown frame, latencies, and the times in which data was missing.
+#pragma once
+
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+
+namespace worldy::ui {
+
+struct TracePagingPanelState {
+    int kind = 0;  // of the latencies
+};
+
+void tracePagingPanel(const EditorView& view, TracePagingPanelState& state, Commands& commands);
+
+}  // namespace worldy::ui
