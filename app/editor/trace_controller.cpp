@@ -156,9 +156,10 @@ fs::path tracesFolder() {
 }
 
 Result<void> openTrace(TraceController& controller, const fs::path& file) {
-    // An engine that is attached would replace the file.
-    const Result<planet::TraceFile> trace = planet::TraceFile::open(file);
-    if (!trace) return tl::unexpected(trace.error());
+    // Opening lists all blocks, which takes long for large traces, so here it only tells what is wrong with another file.
+    if (!isTraceFile(file)) {
+        if (const auto other = planet::TraceFile::open(file); !other) return tl::unexpected(other.error());
+    }
     detach(controller);
     showDocument(controller, file, false);
     return {};
@@ -175,7 +176,6 @@ Result<void> attachTrace(TraceController& controller, int port, const fs::path& 
         planet::TraceLink::start({.port = port, .folder = folder, .name = fmt::format("port {}", port)});
     if (!link) return tl::unexpected(link.error());
     controller.link = std::move(*link);
-    controller.port = port;
     return {};
 }
 
@@ -246,7 +246,6 @@ ui::TraceView traceViewOf(const TraceController& controller) {
     view.whatIf = traceWhatIfViewOf(controller.whatIf);
     view.link.isOn = controller.link != nullptr;
     view.link.isReceiving = controller.isLive;
-    view.link.port = controller.port;
     view.link.message = controller.status.message;
     view.speed = controller.playback.speed;
     if (!controller.document) return view;
@@ -256,7 +255,7 @@ ui::TraceView traceViewOf(const TraceController& controller) {
     view.history = controller.history.get();
     view.isReading =
         view.problem.empty() && !controller.isLive && !(view.history && view.history->isComplete);
-    view.wanted = controller.playback.frame;
+    view.wanted = controller.playback.newest ? shownFrame(controller) : controller.playback.frame;
     view.view = controller.playback.view;
     view.selected = controller.playback.selected;
     view.playing = controller.playback.playing;

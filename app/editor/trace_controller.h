@@ -32,11 +32,10 @@ struct TracePlayback {
 struct TraceController {
     std::unique_ptr<TraceDocument> document{};
     std::unique_ptr<planet::TraceLink> link{};
-    int port = 0;                      // of the link
     planet::TraceLinkStatus status{};  // of the link, in this frame
     bool isLive = false;               // the document's file is being written by the link
     TracePlayback playback{};
-    // What the document had in this frame.
+    // The document's latest frame and history, taken at the start of this frame of the window.
     std::shared_ptr<const TracedFrame> frame{};
     std::shared_ptr<const TraceHistory> history{};
     std::string reported{};  // the problem that was logged

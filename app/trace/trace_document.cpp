@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 // Frames that are kept hold at most so many nodes together: some 70 MB.
 constexpr std::size_t keptNodes = 200'000;
-// So many frames ahead are reached by decoding on, not by seeking.
+// A frame that is at most this many frames ahead is reached by decoding on, not by seeking.
 constexpr std::uint64_t nearFrames = 300;
 constexpr auto liveFramePause = 10ms;
 constexpr auto liveHistoryPause = 200ms;

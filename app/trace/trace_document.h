@@ -30,7 +30,7 @@ public:
     TraceDocument(std::filesystem::path file, bool grows);
 
     const std::filesystem::path& file() const { return file_; }
-    // What comes later is read, too, until the end of the file is reached once more.
+    // After false, the threads read up to the end of the file once more, so that no frame is missed.
     void setGrows(bool grows);
 
     // Asks for a frame by number. The nearest one that the trace has at or after it is read; if there is none, the last one.

@@ -85,7 +85,6 @@ void sumUp(const TraceState& state, const planet::TraceSwitchFinder& finder, Tra
     const planet::TraceSelection& selection = finder.selection();
     view.drawn = selection.drawn.size();
     view.triangles = selection.triangles;
-    view.bytes = selection.bytes;
     view.worstErrorPx = selection.worstErrorPx;
     if (selection.worstNode != noTraceNode) view.worstNode = state.nodes()[selection.worstNode].node.id;
     for (const TracedNode& node : view.nodes) {
@@ -123,7 +122,7 @@ void fillQueue(const TraceState& state, TracedFrame& frame) {
                                    data.data == TraceData::Started, std::max(ageS, 0.0), data.priority});
         }
     }
-    // What is not known to be younger counts as the oldest.
+    // A request whose age is not known counts as the oldest.
     const auto older = [](const TracedRequest& a, const TracedRequest& b) {
         if (std::isnan(a.ageS) != std::isnan(b.ageS)) return std::isnan(a.ageS);
         return a.ageS > b.ageS;

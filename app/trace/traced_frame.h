@@ -21,7 +21,6 @@ enum class TracedPlace : std::uint8_t {
     Unseen,  // its parent is split, but the engine neither drew nor culled it: it is outside the view, or a hole
     Below,  // its parent is drawn
 };
-inline constexpr std::size_t tracedPlaceCount = 5;
 
 struct TracedNode {
     planet::TraceNodeIndex index = planet::noTraceNode;
@@ -58,8 +57,7 @@ struct TracedView {
     std::vector<planet::TraceSwitch> switches{};  // since the frame before
     // Totals over drawn nodes. Nodes that are drawn twice count once.
     std::uint64_t drawn = 0;
-    std::uint64_t triangles = 0;  // of nodes that told them
-    std::uint64_t bytes = 0;      // that the view needs: of drawn and split nodes that told them
+    std::uint64_t triangles = 0;                                     // of nodes that told them
     double worstErrorPx = std::numeric_limits<double>::quiet_NaN();  // NaN: no error is known
     std::uint64_t worstNode = 0;                                     // id
     std::uint64_t overTau = 0;                                       // nodes

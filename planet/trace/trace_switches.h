@@ -48,18 +48,17 @@ public:
     // call: those of a frame that lost events, or that follows a gap, are not known.
     const std::vector<TraceSwitch>& add(const TraceState& state, const TraceFrameView& view);
 
-    // Of the view that was added last.
+    // Return the state of the view that was added last.
     const TraceEngineFrame& engine() const { return engine_; }
     const TraceSelection& selection() const { return selection_; }
-    double tauPx() const { return limits_.tauPx; }      // NaN: not told
-    double mergePx() const { return limits_.mergePx; }  // τ (1 - hysteresis)
+    double tauPx() const { return limits_.tauPx; }  // NaN: not told
 
 private:
     struct Limits {
         double tauPx = std::numeric_limits<double>::quiet_NaN();
         double mergePx = std::numeric_limits<double>::quiet_NaN();
     };
-    // What is known of a drawn or split node.
+    // The facts about a drawn or split node that the next frame compares with.
     struct Seen {
         std::uint32_t stamp = 0;  // stamp_ of the frame
         bool isWaiting = false;   // drawn, while its children were not told or their data is missing

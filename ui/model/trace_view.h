@@ -1,4 +1,4 @@
-// What the trace panels read. Pointers are valid for the frame; the data that they point to does not change.
+// The data that the trace panels read. Pointers are valid for the frame; the data that they point to does not change.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,16 @@ namespace worldy::ui {
 struct TraceLinkView {
     bool isOn = false;         // waiting for an engine, or attached to one
     bool isReceiving = false;  // an engine is attached
-    int port = 0;
-    std::string message{};  // what it does or what is wrong, a sentence
+    std::string message{};     // what it does or what is wrong, a sentence
 };
 
 struct TraceView {
     std::filesystem::path file{};  // that is shown, also while an engine is attached; empty: none
     std::string problem{};         // why it cannot be shown, or where it is damaged or cut off
     TraceLinkView link{};
-    // Of the shown frame; null until it is read.
+    // The shown frame; null until it is read.
     const TracedFrame* frame = nullptr;
-    // Of what has been read so far; null until something is.
+    // The history of the part that has been read so far; null until something is.
     const TraceHistory* history = nullptr;
     bool isReading = false;                   // the history of the file is not complete yet
     std::uint64_t wanted = 0;                 // number of the frame that is to be shown

@@ -100,7 +100,7 @@ TEST_F(TracePanels, attachAsksForThePort) {
     const Commands commands = click(PanelId::Trace, "Attach");
     ASSERT_TRUE(find<AttachTrace>(commands));
     EXPECT_EQ(find<AttachTrace>(commands)->port, 9910);
-    trace_.link = {.isOn = true, .port = 9910, .message = "waits"};
+    trace_.link = {.isOn = true, .message = "waits"};
     EXPECT_TRUE(find<DetachTrace>(click(PanelId::Trace, "Detach")));
 }
 
