@@ -1,4 +1,4 @@
-// What the tables and reports of the command worldy trace have in common.
+// Texts and JSON that the tables and reports of `worldy trace` share.
 #pragma once
 
 #include <cstdint>

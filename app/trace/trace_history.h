@@ -1,4 +1,4 @@
-// What happens over a whole trace, for plots and lists. It grows while the trace is read.
+// The history of a whole trace, for plots and lists. It grows while the trace is read.
 #pragma once
 
 #include <array>

@@ -113,7 +113,7 @@ void TraceWhatIfRecorder::add(const planet::TraceState& state, int view, int row
         found = std::prev(views_.end());
     }
     TraceWhatIfSeries& series = found->series;
-    // What the engine drew comes first in each frame.
+    // The engine's own selection comes first in each frame.
     if (row == -2) beginFrame(state.frame(), *found);
     TracedValues& values = row == -2   ? series.engine
                            : row == -1 ? series.own

@@ -16,7 +16,7 @@
 
 namespace worldy {
 
-// What a selection cost or did in a frame.
+// The cost, the error and the changes of a selection in a frame.
 enum class TracedQuantity : std::uint8_t {
     Drawn,      // nodes
     Triangles,  // of nodes that told them
@@ -63,7 +63,7 @@ public:
     // rows: the number of settings.
     explicit TraceWhatIfRecorder(std::size_t rows) : rows_(rows) {}
 
-    // As planet::TraceWhatIf::Watch calls it.
+    // Takes a selection; the arguments are those of planet::TraceWhatIf::Watch.
     void add(const planet::TraceState& state, int view, int row, const planet::TraceSelection& selection);
     // Returns the series by ascending view. Call it once.
     std::vector<TraceWhatIfSeries> finish();

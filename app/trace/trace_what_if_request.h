@@ -1,4 +1,4 @@
-// What the What if panel asks for. trace_what_if.h of planet/trace selects again.
+// The request of the What if panel. planet/trace/trace_what_if.h selects again.
 #pragma once
 
 #include <optional>

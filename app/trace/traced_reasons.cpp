@@ -149,7 +149,7 @@ void sayUnseen(Reasons& why) {
         "view, or a hole: the faults list those that are visible.");
 }
 
-// How the error on screen comes about.
+// Says how the error on screen is computed.
 void sayError(Reasons& why) {
     const TracedNode& node = why.node;
     if (std::isnan(node.errorPx)) return;

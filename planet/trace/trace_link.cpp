@@ -261,7 +261,7 @@ std::string framesText(std::uint64_t frames) {
     return fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
 }
 
-// What the thread does after a connection, or after none came about.
+// The next step of the thread after a connection, or after a try that made none.
 enum class Next { Retry, RetrySlowly, End };
 
 constexpr const char* expectedEngine = "expected an engine that traces itself with lod_trace.h";

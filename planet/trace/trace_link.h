@@ -38,7 +38,8 @@ enum class TraceLinkState {
     Ended,       // stopped, or the only connection is over
 };
 
-// What one connection brought. The file has the blocks that are counted here, and for a moment one that was just written.
+// The file of one connection, and its contents. The file holds the blocks that are counted here, and for a moment one that was
+// just written.
 struct TraceLinkFile {
     std::filesystem::path path;  // empty if there was no connection yet
     std::uint64_t bytes = 0;     // in the file

@@ -15,7 +15,7 @@ enum class TraceColouring : std::uint8_t { State, Level, Error, Morph };
 glm::vec3 traceColour(TraceColouring by, const TracedNode& node, double tauPx);
 Legend traceLegend(TraceColouring by, const TracedView& view);
 
-// What a node is marked with, the most important mark first.
+// The mark of a node; if several apply, the first one of this list.
 enum class TraceMark : std::uint8_t { None, Twice, Starved, Switched };
 TraceMark traceMark(const TracedNode& node, double tauPx);
 glm::vec3 markColour(TraceMark mark);

@@ -1,4 +1,4 @@
-// What the trace panels share: names of nodes and numbers of frames that can be clicked.
+// Names of nodes and numbers of frames that can be clicked, for all trace panels.
 #pragma once
 
 #include <imgui.h>

@@ -158,7 +158,7 @@ void drawShape(ImDrawList& list, const PlanPlacement& placement, const TraceShap
     const Rect& area = state.area;
     if (high.x < area.x || high.y < area.y || low.x > area.x + area.width || low.y > area.y + area.height)
         return;
-    // What is smaller than a pixel or two is not seen, but for what is marked.
+    // A shape of a pixel or two cannot be seen, so it is drawn only if it is marked.
     const TraceMark mark = traceMark(node, tauPx);
     const float side = std::max(high.x - low.x, high.y - low.y);
     if (side < 1.5f && mark == TraceMark::None && !isSelected) return;

@@ -41,7 +41,7 @@ struct SpaceView {
     std::optional<std::array<glm::dvec2, 2>> segment(const glm::dvec3& from, const glm::dvec3& to) const;
 };
 SpaceView spaceView(const SpaceCamera& camera, const Rect& area);
-// Of the engine's camera, fitted into the area.
+// Returns the projection of the engine's camera, fitted into the area.
 SpaceView spaceView(const planet::TraceView& camera, const Rect& area);
 
 // The edges of bounds on the screen, and their convex hull.

@@ -72,7 +72,7 @@ std::vector<Strip> stripsOf(const EditorView& view, const TraceTimelineState& st
                                     return i < values->size() ? (*values)[i] : unknown;
                                 }}}});
     }
-    // What the engine never told has no line.
+    // A quantity that the engine never told has no line.
     for (Strip& strip : strips) {
         std::erase_if(strip.series, [&](const StripSeries& series) {
             for (std::size_t i = 0; i < samples->size(); ++i)
