@@ -7,7 +7,11 @@
 
 namespace worldy {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 std::string tracedNodeText(const std::optional<planet::TraceDescription>& description, std::uint64_t id) {
     return planet::traceIdText(description.value_or(planet::TraceDescription{}), id);
