@@ -194,6 +194,13 @@ picture_precision() {
     settle; point viewport/picture 0.5 0.6; frames 5
     dock precision
 }
+picture_ruler() {
+    start < <(himalaya; window 1400 800; only ruler 380; echo 'lod.tau_px = 4')
+    settle; click "ruler/Click places"
+    point viewport/picture 0.35 0.75; xdotool click 1; frames 5; point viewport/picture 0.6 0.55; xdotool click 1; frames 5
+    sleep 3; point ruler/Profile 0.4 0.5; frames 3
+    dock ruler
+}
 picture_flight() {
     start < <(above_india; window 1820 420; only flight 1000; echo 'lod.tau_px = 0.4'; slow_disk 100 0)
     settle; click flight/Record; sleep 1
@@ -339,7 +346,7 @@ for name in whole_earth sunset_limb himalaya coast ridge ridged_world andes ande
 done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
-    chunk paging frame bake sources log true_error cracks pops precision flight sweep trace_cesium trace trace_nodes \
+    chunk paging frame bake sources log true_error cracks pops precision ruler flight sweep trace_cesium trace trace_nodes \
     trace_what_if"
 any=no
 for name in $windows; do asked $name && any=yes; done

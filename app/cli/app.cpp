@@ -7,12 +7,15 @@
 
 #include "app/base/exit_code.h"
 #include "app/base/message.h"
+#include "app/base/output_file.h"
 #include "app/base/places.h"
+#include "app/base/stopwatch.h"
 #include "app/base/text.h"
 #include "app/cli/shot_command.h"
 #include "app/data/bake_progress.h"
 #include "app/editor/editor.h"
 #include "app/settings/screenshot.h"
+#include "app/settings/session_file.h"
 #include "app/settings/settings_text.h"
 #include "app/trace/trace_document.h"
 #include "app/window/window.h"
@@ -28,7 +31,7 @@ using planet::Result;
 struct OpenSettings {
     Settings settings;
     fs::path file;
-    std::string textBefore;  // the file's text without changes
+    std::string textBefore;  // of the settings as they were read or saved last
     bool mayBeSaved = true;  // false: the file could not be read and is not overwritten
 };
 
@@ -53,8 +56,10 @@ Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
     return open;
 }
 
-void saveIfChanged(const OpenSettings& open, const Settings& now, const Log& log) {
-    if (!open.mayBeSaved || settingsText(now) == open.textBefore) return;
+void saveIfChanged(OpenSettings& open, const Settings& now, const Log& log) {
+    const std::string text = settingsText(now);
+    if (!open.mayBeSaved || text == open.textBefore) return;
+    open.textBefore = text;
     if (const Result<void> saved = saveSettings(now, open.file); !saved)
         log->error("{}", saved.error().message);
 }
@@ -88,26 +93,82 @@ Result<CheckedData> checked(const DataSet& set) {
     return planet::ChunkFile::open(set.chunkFile).map([&](const auto&) { return CheckedData{set, {}}; });
 }
 
+// Returns the last session if the window is to go on with it, else an empty one.
+LastSession sessionToResume(const AppOptions& options, const Settings& settings, const Log& log) {
+    if (!options.file.empty() || !settings.dataSet.empty() || !settings.workspace.resume) return {};
+    Result<LastSession> last = loadLastSession(lastSessionFile());
+    if (last) return std::move(*last);
+    log->warn("{}; the last session is not opened", last.error().message);
+    return {};
+}
+
+// Returns the planet of the last session, or the one that the options ask for. A last session that cannot be opened is
+// emptied.
+Result<CheckedData> dataToShow(const AppOptions& options, const Settings& settings, LastSession& last,
+                               const Log& log) {
+    if (!last.file.empty()) {
+        Result<CheckedData> again = findDataSet(last.file, {}, {}, std::nullopt).and_then(checked);
+        if (again) return again;
+        log->warn("{}; the planet of the last session is not opened", again.error().message);
+        last = {};
+    }
+    return chosenDataSet(options, settings).and_then(checked);
+}
+
+// Keeps the settings and the session in their files, so that a crash loses little of them.
+class StateKeeper {
+public:
+    explicit StateKeeper(OpenSettings open) : open_(std::move(open)) {}
+
+    bool isDue() const {
+        constexpr double intervalS = 30;
+        return sinceKept_.elapsedS() > intervalS;
+    }
+
+    // session: lastSessionText(); empty: not known.
+    void keep(const Settings& settings, const std::string& session, const Log& log) {
+        sinceKept_ = {};
+        saveIfChanged(open_, settings, log);
+        if (!maySaveSession_ || session.empty() || session == session_) return;
+        session_ = session;
+        if (const Result<void> saved = writeTextFile(lastSessionFile(), session); !saved)
+            log->error("{}", saved.error().message);
+    }
+
+private:
+    OpenSettings open_;
+    std::string session_;  // as it was written last
+    // A file that could not be read is not overwritten.
+    bool maySaveSession_ = loadLastSession(lastSessionFile()).has_value();
+    Stopwatch sinceKept_;
+};
+
 int runWindow(Window& window, const AppOptions& options, CheckedData data, const OpenSettings& open,
-              Log& log) {
+              const LastSession& last, Log& log) {
     window.setTitle(fmt::format("{} - Worldy", sourceName(data.set.source)));
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data.set), options.shaderFolder, log, std::move(data.source));
     session.shaders.worker = window.makeShaderWorker();
     Editor editor(open.settings, log);
     editor.keepItemMap(options.itemMapFile);
-    if (isTraceFile(options.file)) editor.openAtStart(options.file);
-    auto last = std::chrono::steady_clock::now();
+    editor.resume(isTraceFile(options.file) ? LastSession{.trace = options.file} : last);
+    StateKeeper keeper(open);
+    const auto keep = [&] {
+        Settings settings = editor.settings();
+        settings.windowWidthPx = static_cast<int>(window.width());
+        settings.windowHeightPx = static_cast<int>(window.height());
+        keeper.keep(settings, shownScene(session) ? lastSessionText(editor.lastSession(session)) : "", log);
+    };
+    auto lastFrame = std::chrono::steady_clock::now();
     while (!window.closing()) {
+        editor.rest(window, session);
         const auto now = std::chrono::steady_clock::now();
-        editor.runFrame(window, session, std::chrono::duration<double>(now - last).count());
-        last = now;
+        editor.runFrame(window, session, std::chrono::duration<double>(now - lastFrame).count());
+        lastFrame = now;
+        if (keeper.isDue()) keep();
     }
     editor.endFlights(session);
-    Settings settings = editor.settings();
-    settings.windowWidthPx = static_cast<int>(window.width());
-    settings.windowHeightPx = static_cast<int>(window.height());
-    saveIfChanged(open, settings, log);
+    keep();
     if (shownScene(session)) return exitOk;
     if (session.bake) return exitCancelled;
     if (!session.problem) return exitOk;
@@ -146,7 +207,8 @@ int runApp(const AppOptions& options) {
     Log log;
     const Result<OpenSettings> open = openSettings(options, log);
     if (!open) return reportError(open.error());
-    const Result<CheckedData> data = chosenDataSet(options, open->settings).and_then(checked);
+    LastSession last = sessionToResume(options, open->settings, log);
+    const Result<CheckedData> data = dataToShow(options, open->settings, last, log);
     if (!data) return reportError(data.error());
 
     std::error_code status;
@@ -154,7 +216,7 @@ int runApp(const AppOptions& options) {
     auto window = Window::open({open->settings.windowWidthPx, open->settings.windowHeightPx,
                                 configFolder() / "imgui.ini", open->settings.workspace.theme,
                                 open->settings.workspace.scale});
-    if (window) return runWindow(*window, options, *data, *open, log);
+    if (window) return runWindow(*window, options, *data, *open, last, log);
     if (window.error().problem == WindowProblem::NoOpenGl) {
         return reportError({planet::ErrorKind::BadInput, window.error().message});
     }

@@ -43,13 +43,21 @@ void execute(ChunkController& chunks, const ui::ChunkCommand& command, const Sce
                command);
 }
 
-void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selection, ui::Commands& commands) {
+void pick(const PlanetPicture& picture, const Scene& scene, const PickSettings& settings,
+          ChunkController& chunks, ui::Commands& commands) {
     if (!picture.shown() || !picture.pointer.over) return;
     const std::optional<planet::SurfaceHit> hit =
-        planet::pickSurface(scene.planet->tree(), scene.planet->selection(selection).draw, picture.view.eyeM,
-                            rayThrough(picture.view, picture.pointer.positionPx));
-    if (hit) commands.push_back(ui::HoverChunk{hit->id});
+        planet::pickSurface(scene.planet->tree(), scene.planet->selection(settings.selection).draw,
+                            picture.view.eyeM, rayThrough(picture.view, picture.pointer.positionPx));
+    if (hit) {
+        chunks.pointedM = hit->positionM;
+        commands.push_back(ui::HoverChunk{hit->id});
+    }
     if (!picture.pointer.clicked) return;
+    if (settings.placesRulerEnds) {
+        if (hit) commands.push_back(ui::PlaceRulerEnd{hit->positionM});
+        return;
+    }
     commands.push_back(ui::SelectChunk{hit ? std::optional(hit->id) : std::nullopt});
 }
 

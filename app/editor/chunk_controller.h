@@ -11,14 +11,21 @@ namespace worldy {
 
 struct ChunkController {
     ChunkFocus focus;
+    std::optional<glm::dvec3>
+        pointedM;  // the drawn ground under the pointer, metres from the planet's centre
 };
 
 // scene: null if no planet is open.
 void execute(ChunkController& chunks, const ui::ChunkCommand& command, const Scene* scene,
              CameraController& camera, CameraSettings& settings);
 
-// Requests highlighting of the chunk under the pointer. A click selects it; a click on the sky clears the
-// selection. selection: the index of the selection that the picture shows.
-void pick(const PlanetPicture& picture, const Scene& scene, std::size_t selection, ui::Commands& commands);
+struct PickSettings {
+    std::size_t selection = 0;     // index of the selection that the picture shows
+    bool placesRulerEnds = false;  // clicks on the ground place an end of the ruler
+};
+// Keeps the place under the pointer, and requests highlighting of its chunk. A click selects the chunk; a click on the sky
+// clears the selection.
+void pick(const PlanetPicture& picture, const Scene& scene, const PickSettings& settings,
+          ChunkController& chunks, ui::Commands& commands);
 
 }  // namespace worldy

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "app/base/process_memory.h"
@@ -13,7 +14,9 @@
 #include "app/editor/overloaded.h"
 #include "app/editor/pictures.h"
 #include "app/editor/shortcuts.h"
+#include "app/settings/camera_text.h"
 #include "planet/planet_tools.h"
+#include "planet/source/terrain.h"
 #include "ui/kit/theme.h"
 #include "ui/shell/status_bar.h"
 
@@ -65,10 +68,31 @@ void Editor::endFlights(Session& session) {
     stopRecording(recording_, scene ? scene->planet.get() : nullptr, notices_.log);
 }
 
+// Scripts that read the item map count frames, so these are drawn all the time.
+void Editor::rest(const Window& window, const Session& session) {
+    frames_.restedS = 0;
+    FramePace& pace = frames_.pace;
+    pace.noteFrame(frames_.activity.kind, frames_.timeS);
+    if (window.waitForInput(0)) pace.noteInput(frames_.timeS);
+    if (!settings_.settings.workspace.idle || !window_.itemMapFile.empty()) return;
+    const Stopwatch watch;
+    const double restS = pace.restS(frames_.timeS);
+    constexpr double lookS = 0.25;  // at what no event announces
+    while (watch.elapsedS() < restS && !window.closing() && !shadersHaveChanged(session)) {
+        if (!window.waitForInput(std::min(restS - watch.elapsedS(), lookS))) continue;
+        pace.noteInput(frames_.timeS + watch.elapsedS());
+        break;
+    }
+    frames_.restedS = watch.elapsedS();
+}
+
 void Editor::runFrame(Window& window, Session& session, double secondsSinceLast) {
     Workspace& workspace = settings_.settings.workspace;
     notices_.timeS = frames_.timeS += secondsSinceLast;
+    // Nothing moved while the window rested, and no frame was drawn.
+    const double movedS = std::max(secondsSinceLast - frames_.restedS, 0.0);
     window.setTheme(workspace.theme, workspace.scale);
+    window.waitForMonitor(workspace.vsync);
     // Frames wait for input during a bake of which at most a coarse first look is shown, because it needs the cores, and
     // during a sweep, whose frame times they would disturb.
     const OpenPlanet* const open = shownPlanet(session);
@@ -88,13 +112,13 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advanceEstimate(bakes_.estimator);
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
-    if (!files_.atStart.empty()) commands.push_back(ui::OpenTrace{std::exchange(files_.atStart, {})});
-    advanceTrace(files_.trace, secondsSinceLast, notices_.log);
+    takeUpSession(session, commands);
+    advanceTrace(files_.trace, movedS, notices_.log);
     reloadChangedShaders(session, notices_.log);
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
                    notices_.log);
     FrameStats stats;
-    if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, secondsSinceLast, commands);
+    if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, movedS, commands);
 
     const Stopwatch panelWatch;
     notices_.log.moveNewLines(window_.logLines);
@@ -113,14 +137,33 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     window.endFrame([&] { keepScreenshot(window_, window, windowContent(session), notices_); });
     stats.panelsGpuMs = window.panelsGpuMs();
     stats.presentMs = window.presentMs();
-    stats.frameMs = 1000 * secondsSinceLast;
+    stats.frameMs = 1000 * movedS;
     stats.processBytes = residentProcessBytes();
     finishFrame(frames_, stats);
     watchAllocations(session);
+    frames_.activity = activity(session, stats);
+    frames_.lastView = viewport_.main.view;
+    frames_.lastObserverView = viewport_.observer.view;
     ++frames_.frame;
     if (window_.itemMapFile.empty()) return;
     const CounterSources sources{session, frames_, camera_, chunks_.focus, recording_, sweep_, compare_};
     writeItemMap(window_.itemMapFile, items, countersOf(sources, stats, window.queuedInput()));
+}
+
+LastSession Editor::lastSession(const Session& session) const {
+    LastSession last{.file = session.data.source};
+    // The next start may be in another folder. The text of a terrain is no path.
+    if (!planet::isTerrainText(last.file)) last.file = std::filesystem::absolute(last.file);
+    if (camera_.rig) last.camera = roundedPose(poseOf(camera_.rig->camera, camera_.radiusM));
+    if (files_.trace.document && !files_.trace.isLive) last.trace = files_.trace.document->file();
+    return last;
+}
+
+void Editor::takeUpSession(const Session& session, ui::Commands& commands) {
+    LastSession& last = files_.atStart;
+    if (!last.trace.empty()) commands.push_back(ui::OpenTrace{std::exchange(last.trace, {})});
+    if (!last.camera || !camera_.rig || !shownScene(session)) return;
+    commands.push_back(ui::MoveCamera{*std::exchange(last.camera, {})});
 }
 
 // Call when another planet is shown: the camera stays if possible, measurements are discarded.
@@ -152,6 +195,7 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     const FrameStep step = takeStep(frames_, seconds);
     movePlanet(scene, step);
     advanceErrorMeter(*scene.planet, frames_.frame, frames_.timeS, instruments_.errors);
+    advanceRuler(*scene.planet, frames_.timeS, instruments_.ruler);
     stepCompared(compare_,
                  {scene, settings, camera_.lodView, mainView(camera_, viewport_, settings.camera),
                   frames_.timeS, frames_.frame, camera_.jumped, step.goesOn, paging_.paused},
@@ -164,8 +208,11 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
         notices_.log, commands);
     if (isShown(settings_.settings.workspace, PanelId::Surface))
         readLayers(layers_, scene, viewport_.main, settings.surface);
-    pick(viewport_.main, scene, 0, commands);
-    pick(viewport_.observer, scene, observerSelection(scene, viewport_, settings.camera), commands);
+    const bool placesEnds = instruments_.ruler.takesClicks;
+    chunks_.pointedM.reset();
+    pick(viewport_.main, scene, {0, placesEnds}, chunks_, commands);
+    pick(viewport_.observer, scene, {observerSelection(scene, viewport_, settings.camera), placesEnds},
+         chunks_, commands);
     FrameStats stats = statsOf(scene);
     stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
     stats.targetBytes = gpuBytes(viewport_) + gpuBytes(compare_);
@@ -214,28 +261,62 @@ void Editor::drawPictures(Scene& scene) {
     drawObserverPicture(viewport_, input, instruments_.errors, notices_.log);
 }
 
+// Returns what can make the next frame differ from the one just drawn, apart from input.
+FrameActivity Editor::activity(const Session& session, const FrameStats& stats) const {
+    const auto isLoading = [&](const Scene* scene) {
+        return scene && !frames_.paused && !paging_.paused && !scene->planet->settled();
+    };
+    const TraceController& trace = files_.trace;
+    const std::array<std::pair<bool, FrameActivity>, 14> activities = {{
+        {ImGui::IsAnyMouseDown(), {Activity::Motion, "a mouse button is held"}},
+        {!(frames_.lastView == viewport_.main.view && frames_.lastObserverView == viewport_.observer.view),
+         {Activity::Motion, "the camera moves"}},
+        {isLoading(shownScene(session)), {Activity::Motion, "chunks load"}},
+        {compare_.other && isLoading(&compare_.other->planet.scene), {Activity::Motion, "chunks of B load"}},
+        {!frames_.paused && stats.selection.fading > 0, {Activity::Motion, "levels fade"}},
+        {stats.render.standIn || (compare_.other && compare_.other->stats.render.standIn),
+         {Activity::Motion, "shaders are compiled"}},
+        {recording_.recorder.has_value(), {Activity::Motion, "a flight is recorded"}},
+        {recording_.replay && (recording_.replay->controls.playing || recording_.replay->seek),
+         {Activity::Motion, "a flight is replayed"}},
+        {instruments_.costs.meter.has_value(), {Activity::Motion, "costs are measured"}},
+        {window_.screenshotPending.has_value(), {Activity::Motion, "a screenshot waits"}},
+        {trace.playback.playing || (trace.document && trace.document->isBusy()) ||
+             (trace.isLive && trace.playback.newest &&
+              trace.status.state == planet::TraceLinkState::Receiving),
+         {Activity::Motion, "a trace plays"}},
+        {trace.link || trace.whatIf.job, {Activity::Background, "a trace is read"}},
+        {session.bake || !session.ending.empty(), {Activity::Background, "a bake runs"}},
+        {runningJobs() > 0, {Activity::Background, "work in the background goes on"}},
+    }};
+    const auto found = std::ranges::find_if(activities, [](const auto& one) { return one.first; });
+    return found != activities.end() ? found->second : FrameActivity{};
+}
+
 // Gathers the data that panels may read. It refers to the session and the controllers and is valid for the
 // frame.
 ui::EditorView Editor::view(Session& session) {
     const ViewSettings& settings = settings_.settings.view;
     const planet::View& view = viewport_.main.view;
     const Scene* scene = camera_.rig ? shownScene(session) : nullptr;
-    return {.planet = scene ? scene->planet.get() : nullptr,
-            .frames = {frames_.stats, frames_.history, frames_.timeS, frames_.paused},
-            .log = window_.logLines,
-            .pagingPaused = paging_.paused,
-            .focus = chunks_.focus,
-            .data = dataViewOf(session, files_.recentShown),
-            .bake = bakeViewOf(bakes_, session),
-            .camera = cameraViewOf(camera_, scene, view),
-            .settings = settingsViewOf(settings_),
-            .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
-            .recording = recordingViewOf(recording_, settings),
-            .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
-            .sweep = sweepViewOf(sweep_),
-            .layers = layersViewOf(layers_, scene, settings.surface.layers),
-            .sources = sourcesViewOf(bakes_.sources, session),
-            .trace = traceViewOf(files_.trace)};
+    return {
+        .planet = scene ? scene->planet.get() : nullptr,
+        .frames = {frames_.stats, frames_.history, frames_.timeS, frames_.paused, frames_.activity.reason},
+        .log = window_.logLines,
+        .pagingPaused = paging_.paused,
+        .focus = chunks_.focus,
+        .pointedM = chunks_.pointedM,
+        .data = dataViewOf(session, files_.recentShown),
+        .bake = bakeViewOf(bakes_, session),
+        .camera = cameraViewOf(camera_, scene, view),
+        .settings = settingsViewOf(settings_),
+        .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
+        .recording = recordingViewOf(recording_, settings),
+        .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
+        .sweep = sweepViewOf(sweep_),
+        .layers = layersViewOf(layers_, scene, settings.surface.layers),
+        .sources = sourcesViewOf(bakes_.sources, session),
+        .trace = traceViewOf(files_.trace)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
@@ -299,6 +380,15 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
     for (const ui::Command& one : next) execute(one, window, session);
 }
 
+std::size_t Editor::runningJobs() const {
+    const SourceController& sources = bakes_.sources;
+    return std::size_t{instruments_.errors.job != nullptr} + std::size_t{compare_.flight.job != nullptr} +
+           std::size_t{sweep_.job != nullptr} + std::size_t{bakes_.estimator.job != nullptr} +
+           std::size_t{bakes_.preview.job != nullptr} + std::size_t{sources.reader.job != nullptr} +
+           std::size_t{sources.queries.job != nullptr} + std::size_t{sources.depths.job != nullptr} +
+           std::size_t{instruments_.ruler.job != nullptr} + sources.reader.ending.size();
+}
+
 void Editor::watchAllocations(const Session& session) {
     const AllocationSources sources{
         .session = session,
@@ -308,12 +398,7 @@ void Editor::watchAllocations(const Session& session) {
         .logLines = window_.logLines.size(),
         .frameSamples = frames_.history.size(),
         .recordedBytes = recording_.recorder ? recording_.recorder->encoded().bytes() : 0,
-        .jobs = std::size_t{instruments_.errors.job != nullptr} +
-                std::size_t{compare_.flight.job != nullptr} + std::size_t{sweep_.job != nullptr} +
-                std::size_t{bakes_.estimator.job != nullptr} + std::size_t{bakes_.preview.job != nullptr} +
-                std::size_t{bakes_.sources.reader.job != nullptr} +
-                std::size_t{bakes_.sources.queries.job != nullptr} +
-                std::size_t{bakes_.sources.depths.job != nullptr} + bakes_.sources.reader.ending.size()};
+        .jobs = runningJobs()};
     const bool wanted = isShown(settings_.settings.workspace, PanelId::Frame);
     worldy::watchAllocations(sources, wanted, std::exchange(instruments_.markAllocations, false),
                              instruments_.allocations);

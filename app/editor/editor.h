@@ -34,9 +34,13 @@ public:
     // Writes the positions of controls into a file after each frame.
     void keepItemMap(const std::filesystem::path& file) { window_.itemMapFile = file; }
 
-    // Shows a trace from the first frame on. The file is a trace.
-    void openAtStart(const std::filesystem::path& trace) { files_.atStart = trace; }
+    // Opens the trace and moves the camera of a session in the first frames.
+    void resume(const LastSession& session) { files_.atStart = session; }
+    // Returns what the next start can go on with.
+    LastSession lastSession(const Session& session) const;
 
+    // Waits for input while nothing changes. Call before each frame.
+    void rest(const Window& window, const Session& session);
     // Runs one frame: input, planet, panels, and the panels' commands. secondsSinceLast: >= 0.
     void runFrame(Window& window, Session& session, double secondsSinceLast);
     // Saves the recording and ends the replay. Call before the window closes.
@@ -53,6 +57,9 @@ private:
     void movePlanet(Scene& scene, const FrameStep& step);
     void chooseChunks(Scene& scene, const FrameStep& step);
     void drawPictures(Scene& scene);
+    void takeUpSession(const Session& session, ui::Commands& commands);
+    std::size_t runningJobs() const;
+    FrameActivity activity(const Session& session, const FrameStats& stats) const;
     ui::EditorView view(Session& session);
     void execute(const ui::Command& command, const Window& window, Session& session);
     void execute(const ui::Commands& commands, const Window& window, Session& session);

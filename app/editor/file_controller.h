@@ -10,6 +10,7 @@
 #include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
 #include "app/editor/trace_controller.h"
+#include "app/settings/session_file.h"
 #include "ui/model/commands.h"
 #include "ui/shell/open_dialog.h"
 
@@ -20,8 +21,8 @@ struct FileController {
     std::vector<std::filesystem::path> recent;       // as stored
     std::vector<std::filesystem::path> recentShown;  // those that exist
     ui::OpenDialogState dialog;
-    std::filesystem::path atStart{};  // a trace that the first frame opens; empty: none
-    TraceController trace{};          // the open trace, beside the planet
+    LastSession atStart{};    // what the first frames open; its planet is open or will be
+    TraceController trace{};  // the open trace, beside the planet
 };
 
 FileController openFileController();

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "app/scene/frame_stats.h"
+#include "app/window/frame_pace.h"
+#include "planet/sphere/view.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
@@ -19,6 +21,11 @@ struct FrameController {
     double timeS = 0;                     // seconds since the window opened
     FrameStats stats;                     // smoothed
     std::deque<ui::FrameSample> history;  // of the last 10 s
+    FramePace pace;
+    FrameActivity activity{};  // of the last frame
+    double restedS = 0;        // before this frame, seconds
+    planet::View lastView;     // of the main picture in the last frame
+    planet::View lastObserverView;
     std::shared_ptr<const int>
         lastScene;  // identity of the last frame's scene, to detect that another is shown
 };

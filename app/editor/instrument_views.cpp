@@ -32,6 +32,17 @@ ui::PopsView popsViewOf(const Pops& pops) {
             .problem = pops.problem};
 }
 
+ui::RulerView rulerViewOf(const Ruler& ruler, const planet::View& view) {
+    ui::RulerView shown{.takesClicks = ruler.takesClicks,
+                        .ends = ruler.ends,
+                        .measured = ruler.last ? &*ruler.last : nullptr,
+                        .current = ruler.current,
+                        .running = ruler.job != nullptr,
+                        .problem = ruler.problem};
+    for (const glm::dvec3& endM : ruler.ends) shown.inPicture.push_back(rulerEndIn(view, endM));
+    return shown;
+}
+
 ui::SourcePreview previewViewOf(const SourcePreviewer& previewer) {
     ui::SourcePreview view;
     view.working = previewer.job || previewer.next;

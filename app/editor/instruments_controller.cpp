@@ -58,6 +58,12 @@ struct InstrumentHandler {
                 context.cameraContext);
     }
     void operator()(const ui::ShowPopSide& command) const { instruments.pops.side = command.side; }
+    void operator()(const ui::TakeRulerClicks& command) const { instruments.ruler.takesClicks = command.on; }
+    void operator()(const ui::PlaceRulerEnd& command) const {
+        placeRulerEnd(instruments.ruler, command.positionM);
+    }
+    void operator()(const ui::SwapRulerEnds&) const { swapRulerEnds(instruments.ruler); }
+    void operator()(const ui::ClearRuler&) const { clearRuler(instruments.ruler); }
     void operator()(const ui::MeasureErrors&) const { instruments.errors.wanted = true; }
     void operator()(const ui::KeepMeasuringErrors& command) const {
         instruments.errors.keepMeasuring = command.on;
@@ -116,6 +122,7 @@ void forgetPlanet(InstrumentsController& instruments) {
     forgetErrors(instruments.errors);
     instruments.cracks = {};
     instruments.costs = {};
+    forgetGround(instruments.ruler);
 }
 
 void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& drawn, const Log& log,
@@ -134,7 +141,8 @@ ui::InstrumentsView instrumentsViewOf(const InstrumentsController& instruments, 
     ui::InstrumentsView shown{.changes = instruments.changes,
                               .allocations = instruments.allocations,
                               .errors = errorsViewOf(instruments.errors, frame),
-                              .probe = instruments.probe};
+                              .probe = instruments.probe,
+                              .ruler = rulerViewOf(instruments.ruler, view)};
     shown.light.costs = instruments.costs.costs;
     shown.light.measured = instruments.costs.meter ? instruments.costs.meter->share() : 1;
     if (!scene) return shown;

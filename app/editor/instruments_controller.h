@@ -8,6 +8,7 @@
 #include "app/measure/cracks.h"
 #include "app/measure/error_job.h"
 #include "app/measure/pops.h"
+#include "app/measure/ruler.h"
 #include "app/measure/surface_costs.h"
 #include "app/scene/overlay_lines.h"
 #include "app/settings/settings.h"
@@ -26,6 +27,7 @@ struct InstrumentsController {
     CrackInstrument cracks;
     CostInstrument costs;
     ErrorMeter errors;
+    Ruler ruler;
 };
 
 // Parts of other features that instrument commands use and change.

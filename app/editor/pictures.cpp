@@ -47,6 +47,9 @@ void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsC
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
     content.frontLines = focusLines(scene.planet->tree(), input.focus, content.view);
     appendOutlines(input, content);
+    const planet::Lines ruler =
+        rulerLines(instruments.ruler, content.view, scene.planet->tree().shape.radiusM);
+    content.frontLines.insert(content.frontLines.end(), ruler.begin(), ruler.end());
     drawPicture(viewport, viewport.main, scene, settings, content, log);
 }
 

@@ -499,11 +499,14 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     return view;
 }
 
+bool shadersHaveChanged(const Session& session) {
+    return session.open && !session.shaders.folder.empty() &&
+           newestIn(session.shaders.folder) != session.shaders.changed;
+}
+
 void reloadChangedShaders(Session& session, const Log& log) {
-    if (!session.open || session.shaders.folder.empty()) return;
-    const fs::file_time_type newest = newestIn(session.shaders.folder);
-    if (newest == session.shaders.changed) return;
-    session.shaders.changed = newest;
+    if (!shadersHaveChanged(session)) return;
+    session.shaders.changed = newestIn(session.shaders.folder);
     const Result<void> reloaded = session.open->scene.renderer.chunks().reloadShaders();
     if (reloaded)
         log->info("Shaders of {} reloaded", session.shaders.folder.string());

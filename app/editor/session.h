@@ -118,6 +118,8 @@ const Scene* shownScene(const Session& session);
 ui::BakeView bakeViewOf(const Session& session);
 ui::DataView dataViewOf(const Session& session, std::span<const std::filesystem::path> recent);
 
+// Returns whether a file in the folder of the shaders is newer than when they were compiled.
+bool shadersHaveChanged(const Session& session);
 // Recompiles the shaders of the folder if one has changed, for all planets of the session.
 void reloadChangedShaders(Session& session, const Log& log);
 

@@ -40,17 +40,12 @@ ErrorMeasurement frameOf(const planet::Planet& planet) {
     return frame;
 }
 
-bool drawnAlike(const planet::DrawItem& a, const planet::DrawItem& b) {
-    return a.id == b.id && a.morph == b.morph && a.coarserBy == b.coarserBy && a.edgeMorph == b.edgeMorph;
-}
-
 bool isOf(const ErrorMeasurement& last, const planet::Planet& planet) {
     const planet::LodSettings& lod = planet.views()[0].input.lod;
     const auto& draw = planet.selection().draw;
     return last.lodView == planet.views()[0].input.lodView && last.tauPx == lod.tauPx &&
            last.metric == lod.metric && last.stitched == (lod.seams == planet::SeamMode::Stitched) &&
-           last.exaggeration == planet.tree().exaggeration &&
-           std::equal(last.drawn.begin(), last.drawn.end(), draw.begin(), draw.end(), drawnAlike);
+           last.exaggeration == planet.tree().exaggeration && drawnAlike(last.drawn, draw);
 }
 
 }  // namespace
@@ -79,7 +74,8 @@ void forgetErrors(ErrorMeter& meter) {
 void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double timeS, ErrorMeter& meter) {
     takeResult(meter);
     meter.current = meter.last && isOf(*meter.last, planet);
-    if (meter.job || !(meter.wanted || meter.keepMeasuring)) return;
+    const bool again = meter.keepMeasuring && !meter.current;  // the same chunks have the same error
+    if (meter.job || !(meter.wanted || again)) return;
     meter.wanted = false;
     if (!meter.heights)
         meter.heights =

@@ -32,8 +32,8 @@ private:
 
 // The state of the instrument in the window. At most one measurement runs at a time.
 struct ErrorMeter {
-    bool wanted = false;                               // one measurement is requested
-    bool keepMeasuring = false;                        // measurements are repeated while this is set
+    bool wanted = false;         // one measurement is requested
+    bool keepMeasuring = false;  // while set, each view that differs from the last is measured
     std::shared_ptr<planet::FinestHeights> heights{};  // heights of the current planet
     std::unique_ptr<ErrorJob> job{};
     ErrorMeasurement running{};  // frame and settings of the running measurement

@@ -22,6 +22,13 @@ ErrorMeasurement measurementOf(planet::TrueErrorReport&& report, ErrorMeasuremen
     return measurement;
 }
 
+bool drawnAlike(std::span<const planet::DrawItem> a, std::span<const planet::DrawItem> b) {
+    return std::ranges::equal(a, b, [](const planet::DrawItem& one, const planet::DrawItem& other) {
+        return one.id == other.id && one.morph == other.morph && one.coarserBy == other.coarserBy &&
+               one.edgeMorph == other.edgeMorph;
+    });
+}
+
 planet::DrawnSnapshot drawnSnapshotOf(const planet::Planet& planet) {
     const planet::ViewInput& input = planet.views()[0].input;
     return planet::snapshotOf(planet.tree(), planet.selection().draw, input.lodView,

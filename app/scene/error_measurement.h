@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct ErrorMeasurement {
 
 // Returns the measurement of a frame, with the index and the order of its report.
 ErrorMeasurement measurementOf(planet::TrueErrorReport&& report, ErrorMeasurement frame = {});
+
+// Returns whether two selections draw the same: the same chunks with the same morph, whatever their slots.
+bool drawnAlike(std::span<const planet::DrawItem> a, std::span<const planet::DrawItem> b);
 
 // Returns a snapshot of the planet's first selection, as its LOD view sees it.
 planet::DrawnSnapshot drawnSnapshotOf(const planet::Planet& planet);

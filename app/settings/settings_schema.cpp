@@ -509,7 +509,19 @@ void addWindow(Fields& fields, Settings& s) {
          {"window", "theme", "Theme", "Colours of the user interface.",
           Choice{asByte(workspace.theme), themeNames}},
          {"window", "scale", "Scale", "Scale of text and controls, relative to the monitor's scale.",
-          Number{&workspace.scale, {0.5, 3, ""}}}});
+          Number{&workspace.scale, {0.5, 3, ""}}},
+         {"window", "idle", "Idle when still",
+          "Draws frames only while something changes, which saves power. Turn it off to watch frame times "
+          "without a pause.",
+          Flag{&workspace.idle}},
+         {"window", "vsync", "Wait for the monitor",
+          "Draws at most as many frames as the monitor shows. Turn it off to draw as fast as the machine "
+          "can.",
+          Flag{&workspace.vsync}},
+         {"window", "resume", "Go on with the last session",
+          "Without a file on the command line, opens the planet, the camera and the trace of the last "
+          "session.",
+          Flag{&workspace.resume}}});
 }
 
 // The panels' keys in the order of PanelId, like panelInfos.
@@ -616,7 +628,7 @@ void addViewSettings(Fields& fields, ViewSettings& view) {
 }
 
 // The size of the largest list, so that it is allocated once.
-constexpr std::size_t fieldCount = 114 + 2 * panelCount + dockCount;
+constexpr std::size_t fieldCount = 117 + 2 * panelCount + dockCount;
 
 }  // namespace
 

@@ -34,7 +34,10 @@ struct Workspace {
     // The panel that each dock shows; ignored if that panel is not docked there.
     std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging};
     Theme theme = Theme::Dark;
-    double scale = 1;  // relative to the monitor's scale; Ctrl + and Ctrl -
+    double scale = 1;    // relative to the monitor's scale; Ctrl + and Ctrl -
+    bool idle = true;    // draws frames only while something changes
+    bool vsync = true;   // frames wait for the monitor
+    bool resume = true;  // a start without a file goes on with the last session
 
     bool operator==(const Workspace&) const = default;
 };

@@ -77,6 +77,7 @@ struct Window::Glfw {
     std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in this frame
     std::vector<KeyPress> pressedKeys;
     std::vector<std::filesystem::path> droppedFiles;
+    bool hasInput = false;  // since the last frame began
 
     static Glfw& of(GLFWwindow* handle) { return *static_cast<Glfw*>(glfwGetWindowUserPointer(handle)); }
 
@@ -87,6 +88,7 @@ struct Window::Glfw {
     }
 
     void listen();
+    void listenForChanges();
     // Passes the events of the next frame to ImGui. Returns the pointer's position if a button changed.
     std::optional<glm::dvec2> giveInput();
 };
@@ -106,6 +108,7 @@ void Window::Glfw::listen() {
         const InputKind kind = action == GLFW_PRESS     ? InputKind::KeyDown
                                : action == GLFW_RELEASE ? InputKind::KeyUp
                                                         : InputKind::KeyRepeat;
+        of(handle).hasInput = true;
         of(handle).input.add(
             {.kind = kind, .code = key, .scancode = scancode, .modifiers = modifiers, .atS = glfwGetTime()});
     });
@@ -113,18 +116,42 @@ void Window::Glfw::listen() {
         glm::dvec2 pointer{0, 0};
         glfwGetCursorPos(handle, &pointer.x, &pointer.y);
         const InputKind kind = action == GLFW_PRESS ? InputKind::ButtonDown : InputKind::ButtonUp;
+        of(handle).hasInput = true;
         of(handle).input.add({kind, button, 0, modifiers, pointer});
     });
     glfwSetCharCallback(window, [](GLFWwindow* handle, unsigned int letter) {
+        of(handle).hasInput = true;
         of(handle).input.add({InputKind::Text, static_cast<int>(letter)});
     });
     glfwSetDropCallback(window, [](GLFWwindow* handle, int count, const char** files) {
+        of(handle).hasInput = true;
         of(handle).droppedFiles.assign(files, files + count);
     });
-    glfwSetScrollCallback(window, ImGui_ImplGlfw_ScrollCallback);
-    glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
-    glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
+    glfwSetScrollCallback(window, [](GLFWwindow* handle, double right, double up) {
+        of(handle).hasInput = true;
+        ImGui_ImplGlfw_ScrollCallback(handle, right, up);
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* handle, int entered) {
+        of(handle).hasInput = true;
+        ImGui_ImplGlfw_CursorEnterCallback(handle, entered);
+    });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* handle, int focused) {
+        of(handle).hasInput = true;
+        ImGui_ImplGlfw_WindowFocusCallback(handle, focused);
+    });
     glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
+    listenForChanges();
+}
+
+// ImGui's backend asks for the pointer and the size in each frame. These events only say that a frame is needed.
+void Window::Glfw::listenForChanges() {
+    glfwSetCursorPosCallback(window, [](GLFWwindow* handle, double, double) { of(handle).hasInput = true; });
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* handle, int, int) { of(handle).hasInput = true; });
+    glfwSetWindowContentScaleCallback(window,
+                                      [](GLFWwindow* handle, float, float) { of(handle).hasInput = true; });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* handle) { of(handle).hasInput = true; });
+    glfwSetWindowIconifyCallback(window, [](GLFWwindow* handle, int) { of(handle).hasInput = true; });
+    glfwSetWindowCloseCallback(window, [](GLFWwindow* handle) { of(handle).hasInput = true; });
 }
 
 std::optional<glm::dvec2> Window::Glfw::giveInput() {
@@ -222,6 +249,12 @@ void Window::setTheme(Theme theme, double scale) {
     if (!first) ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
+void Window::waitForMonitor(bool waits) {
+    if (waits == waitsForMonitor_) return;
+    waitsForMonitor_ = waits;
+    glfwSwapInterval(waits ? 1 : 0);
+}
+
 void Window::setClipboard(const std::string& text) const {
     glfwSetClipboardString(glfw_->window, text.c_str());
 }
@@ -249,13 +282,19 @@ void Window::close() const {
     glfwSetWindowShouldClose(glfw_->window, GLFW_TRUE);
 }
 
-void Window::beginFrame(double waitS) const {
-    glfw_->pressedKeys.clear();
-    glfw_->droppedFiles.clear();
-    if (waitS > 0 && glfw_->input.empty())
+bool Window::waitForInput(double waitS) const {
+    // Events that wait for their frame are input as well.
+    if (waitS > 0 && !glfw_->hasInput && glfw_->input.empty())
         glfwWaitEventsTimeout(waitS);
     else
         glfwPollEvents();
+    return glfw_->hasInput || !glfw_->input.empty();
+}
+
+void Window::beginFrame(double waitS) const {
+    glfw_->pressedKeys.clear();
+    waitForInput(waitS);
+    glfw_->hasInput = false;
     const std::optional<glm::dvec2> pointer = glfw_->giveInput();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
@@ -284,6 +323,7 @@ void Window::endFrame(const std::function<void()>& drawn) {
     const Stopwatch present;
     glfwSwapBuffers(glfw_->window);
     presentMs_ = present.elapsedMs();
+    glfw_->droppedFiles.clear();
 }
 
 const std::vector<KeyPress>& Window::pressedKeys() const {

@@ -50,6 +50,9 @@ public:
     bool closing() const;
     void close() const;
 
+    // Waits for input, but not longer than waitS seconds. Returns whether input has come since the last frame began: keys,
+    // buttons, the pointer, dropped files, or a change of the window itself.
+    bool waitForInput(double waitS) const;
     // Reads input, waiting up to waitS for it, and starts ImGui's frame.
     void beginFrame(double waitS) const;
     // Draws ImGui's windows and presents the frame. Calls drawn when the frame is drawn but not yet
@@ -64,6 +67,8 @@ public:
     // Returns the files dropped onto the window since the last frame.
     const std::vector<std::filesystem::path>& droppedFiles() const;
 
+    // Limits the frames to those of the monitor, or not at all. Cheap if nothing has changed.
+    void waitForMonitor(bool waits);
     // Updates fonts and colours if the theme or scale has changed. Call between two frames.
     void setTheme(Theme theme, double scale);
     void setClipboard(const std::string& text) const;
@@ -97,6 +102,7 @@ private:
     float appliedScale_ = 0;  // contentScale() times the user's
     std::optional<planet::gl::GpuTimer> panelsTimer_;
     double presentMs_ = 0;
+    bool waitsForMonitor_ = true;
 };
 
 }  // namespace worldy

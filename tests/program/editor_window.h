@@ -89,16 +89,9 @@ struct Screen {
 };
 inline const Screen usualScreen{"1280x800", 96};
 
-// Starts the window, waits until the planet is there, runs the steps, and quits by Ctrl+Q. What the steps
-// print is the output: nothing, where all is well.
-inline Ran runInWindow(const TemporaryFolder& folder, const std::string& arguments, const std::string& steps,
-                       const Screen& screen = {}) {
-    std::ofstream(folder.path() / "steps.sh")
-        << windowFunctions << "'" WORLDY_BINARY "' --item-map items.txt " << arguments << " &\nworldy=$!\n"
-        << "until_true shown viewport/picture || echo 'the planet is not shown'\n"
-        // Off the planet, where it would light a chunk.
-        << "xdotool mousemove 600 5\nsettle\n"
-        << steps << "\nxdotool key --clearmodifiers ctrl+q\nwait $worldy\n";
+// Runs a script, which may use the functions above, on a display of its own.
+inline Ran runOnDisplay(const TemporaryFolder& folder, const std::string& script, const Screen& screen = {}) {
+    std::ofstream(folder.path() / "steps.sh") << windowFunctions << script;
     // The server chooses a free display itself: others may be starting at the same time.
     std::ofstream(folder.path() / "display.sh")
         << "rm -f items.txt display.txt\n"
@@ -111,6 +104,19 @@ inline Ran runInWindow(const TemporaryFolder& folder, const std::string& argumen
     // Graphics drivers are unloaded before a leak checker looks, so it takes what they keep for leaks of
     // ours.
     return runShell(folder, "ASAN_OPTIONS=detect_leaks=0 bash display.sh");
+}
+
+// Starts the window, waits until the planet is there, runs the steps, and quits by Ctrl+Q. Steps print what is wrong.
+inline Ran runInWindow(const TemporaryFolder& folder, const std::string& arguments, const std::string& steps,
+                       const Screen& screen = {}) {
+    return runOnDisplay(folder,
+                        "'" WORLDY_BINARY "' --item-map items.txt " + arguments +
+                            " &\nworldy=$!\n"
+                            "until_true shown viewport/picture || echo 'the planet is not shown'\n"
+                            // Off the planet, where it would light a chunk.
+                            "xdotool mousemove 600 5\nsettle\n" +
+                            steps + "\nxdotool key --clearmodifiers ctrl+q\nwait $worldy\n",
+                        screen);
 }
 
 inline void writeWindowSettings(const TemporaryFolder& folder, const std::string& text) {

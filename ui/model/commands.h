@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -182,9 +183,18 @@ struct MeasureErrors {};  // the true error of the current view, in the backgrou
 struct KeepMeasuringErrors {
     bool on = false;
 };
+struct TakeRulerClicks {  // clicks on the ground place the ruler's ends
+    bool on = false;
+};
+struct PlaceRulerEnd {
+    glm::dvec3 positionM{0, 0, 0};  // on the drawn ground, from the planet's centre
+};
+struct SwapRulerEnds {};
+struct ClearRuler {};
 using InstrumentCommand =
-    std::variant<MarkAllocations, TryCostlyParts, MeasureCracks, MeasureCosts, FindSmallestSkirts,
-                 MeasurePops, ClearPops, GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors>;
+    std::variant<TakeRulerClicks, PlaceRulerEnd, SwapRulerEnds, ClearRuler, MarkAllocations, TryCostlyParts,
+                 MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop,
+                 ShowPopSide, MeasureErrors, KeepMeasuringErrors>;
 
 // Recorded flights.
 struct StartRecording {  // resets the planet; no name: the next free one

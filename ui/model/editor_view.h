@@ -28,6 +28,7 @@
 #include "ui/model/pops_view.h"
 #include "ui/model/probe_view.h"
 #include "ui/model/recording_view.h"
+#include "ui/model/ruler_view.h"
 #include "ui/model/sources_view.h"
 #include "ui/model/sweep_view.h"
 #include "ui/model/trace_view.h"
@@ -44,6 +45,7 @@ struct FramesView {
     const std::deque<FrameSample>& history;  // the last 10 s, oldest first
     double timeS = 0;
     bool paused = false;
+    const char* drawnBecause = "";  // completes "Frames are drawn because ..."
 };
 
 struct DataView {
@@ -138,6 +140,7 @@ struct InstrumentsView {
     LightView light{};
     PopsView pops{};
     ProbeView probe{};
+    RulerView ruler{};
 };
 
 // One member per feature, filled by its controller.
@@ -147,6 +150,8 @@ struct EditorView {
     const std::deque<LogLine>& log;
     bool pagingPaused = false;
     ChunkFocus focus{};
+    std::optional<glm::dvec3>
+        pointedM{};  // the drawn ground under the pointer, metres from the planet's centre
     DataView data{};
     BakeView bake{};
     CameraView camera{};

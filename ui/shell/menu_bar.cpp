@@ -55,6 +55,9 @@ void fileMenu(const EditorView& view, Workspace& workspace, Commands& commands) 
         ImGui::EndMenu();
     }
     if (menuItem("Attach to an engine...")) showPanel(PanelId::Trace, workspace);
+    if (menuItem("Go on with the last session", nullptr, workspace.resume))
+        workspace.resume = !workspace.resume;
+    tooltip("A start without a file opens the planet, the camera and the trace of the last session.");
     ImGui::Separator();
     if (menuItem("Screenshot", "F12", false, greyUnless(view.planet, noPlanet)))
         commands.push_back(TakeScreenshot{false});
@@ -118,10 +121,18 @@ void viewMenu(Workspace& workspace) {
                  greyUnless(workspace.scale != 1, "The text already matches the monitor scale.")))
         workspace.scale = 1;
     ImGui::Separator();
+    if (menuItem("Idle when still", nullptr, workspace.idle)) workspace.idle = !workspace.idle;
+    tooltip("Draws frames only while something changes, which saves power.");
+    if (menuItem("Wait for the monitor", nullptr, workspace.vsync)) workspace.vsync = !workspace.vsync;
+    tooltip("Draws at most as many frames as the monitor shows.");
+    ImGui::Separator();
     if (menuItem("Reset layout")) {
-        const Theme theme = workspace.theme;
+        const Workspace before = workspace;
         workspace = {};
-        workspace.theme = theme;
+        workspace.theme = before.theme;
+        workspace.idle = before.idle;
+        workspace.vsync = before.vsync;
+        workspace.resume = before.resume;
     }
     ImGui::EndMenu();
 }

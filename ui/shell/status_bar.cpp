@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "app/base/text.h"
 #include "ui/kit/item_map.h"
@@ -62,6 +64,14 @@ void planetCells(const EditorView& view, const ViewSettings& settings, Cells& ce
         cells.add(distanceText(height.heightM) + " " + height.name, height.explanation, colours.text);
     };
     addHeight(heights.front());
+    if (view.pointedM) {
+        const planet::Geographic place = planet::geographicFromDirection(*view.pointedM);
+        const double heightM = glm::length(*view.pointedM) - view.planet->tree().shape.radiusM;
+        cells.add(fmt::format("pointer {} {:.1f} m",
+                              placeText(glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad)),
+                              heightM),
+                  "The drawn ground under the pointer: latitude, longitude, height.", colours.text);
+    }
     const double perSecond = view.frames.stats.frameMs > 0 ? 1000 / view.frames.stats.frameMs : 0;
     cells.add(fmt::format("{:.1f} ms  {:.0f} FPS", view.frames.stats.frameMs, perSecond),
               "Frame time and frame rate, including the wait for the monitor.", colours.text);

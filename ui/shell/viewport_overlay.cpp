@@ -205,6 +205,22 @@ void drawCrackMarks(ImDrawList& drawList, const planet::gl::CrackMap& map, const
     }
 }
 
+// Names the ends of the ruler above their posts.
+void drawRulerNames(ImDrawList& drawList, const EditorView& view, const Rect& viewport) {
+    const float scale = viewport.width / static_cast<float>(std::max(view.camera.renderView.widthPx, 1));
+    const std::vector<RulerEndInPicture>& ends = view.instruments.ruler.inPicture;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        if (!ends[i].atPx) continue;
+        constexpr double postPx = 24;
+        const glm::vec2 at(*ends[i].atPx + glm::dvec2(0, postPx));
+        const char* name = i == 0 ? "A" : "B";
+        badge(drawList,
+              {viewport.x + viewport.width / 2 + scale * at.x - ImGui::CalcTextSize(name).x,
+               viewport.y + viewport.height / 2 - scale * at.y - badgeStepPx()},
+              name, palette().warning);
+    }
+}
+
 // Only the source of A is read.
 Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay,
                  const planet::SourceLayers* layers = nullptr) {
@@ -305,6 +321,7 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
                    {view.camera.renderView, 0, one.whole, taken});
         ImGui::PopClipRect();
     }
+    drawRulerNames(drawList, view, viewport);
     compareOverlay(view.compare, settings.compare, viewport);
     drawLegend(drawList, legend, layout, taken.front());
     for (const PlacedBadge& one : badges) {

@@ -77,9 +77,15 @@ std::vector<ValueRow> timeRows(const EditorView& view) {
     std::vector<ValueRow> rows = {
         {"Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time."},
         {"Frame", millisecondsText(stats.frameMs),
-         "Time from the start of one frame to the next, including the wait for the monitor."},
+         "Time from the start of one frame to the next, including the wait for the monitor, but not the rest "
+         "while nothing "
+         "changes."},
         {"Longest, last 10 s", millisecondsText(longestFrameMs(view.frames.history)),
          "Longest frame of the last 10 seconds. Switching a feature on may take one long frame."}};
+    rows.push_back(
+        {"Drawn because", view.frames.drawnBecause,
+         "Why the last frame was drawn. If nothing changes, the window rests until there is input; "
+         "View > Idle when still turns that off."});
     for (const Stage& stage : cpuStages)
         rows.push_back(
             {fmt::format("CPU {}", stage.name), millisecondsText(stage.ms(stats)), stage.explanation});

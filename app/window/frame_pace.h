@@ -1,0 +1,40 @@
+// How often the window draws: at full speed while something moves, a few times a second while work in the background goes
+// on or the plots of the last seconds run out, and hardly at all while nothing changes. No clock and no window; one thread.
+#pragma once
+
+#include <cstdint>
+
+namespace worldy {
+
+// What can make the next frame differ from the last one.
+enum class Activity : std::uint8_t {
+    None,
+    Background,  // work whose progress is shown
+    Motion,      // of the picture: a camera, loading, fading, a replay
+};
+
+struct FrameActivity {
+    Activity kind = Activity::None;
+    const char* reason = "nothing changes";  // completes "Frames are drawn because ..."
+};
+
+// Panels show rates and plots of the last ten seconds, which are drawn until they have run out.
+inline constexpr double runOutS = 11;
+// The longest rest. A change that no event announces, such as an edited shader, is seen after it.
+inline constexpr double longestRestS = 15;
+
+// All times are in seconds and never decrease.
+class FramePace {
+public:
+    void noteInput(double nowS);
+    // Notes what went on in the frame that ends now.
+    void noteFrame(Activity activity, double nowS);
+    // Returns how long the next frame may wait for input, seconds: 0 at full speed.
+    double restS(double nowS) const;
+
+private:
+    double lastMotionS_ = 0;  // or input
+    double lastChangeS_ = 0;  // any activity
+};
+
+}  // namespace worldy

@@ -1,0 +1,177 @@
+#include "app/measure/ruler.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "planet/bake/bake.h"
+#include "tests/support/sudden_lod.h"
+#include "tests/support/synthetic_source.h"
+#include "tests/support/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+class RulerTest : public testing::Test {
+protected:
+    RulerTest() {
+        const auto path = folder_ / "hills.chk";
+        planet::BakeSettings settings;
+        settings.chunkSize = 17;
+        settings.radiusM = 100'000;
+        if (!planet::bake(planet::test::hillsSource(), settings, path))
+            throw std::runtime_error("cannot bake");
+        planet_ = planet::Planet::open(path, {}).value();
+        lod_.tauPx = 60;
+        show(20'000);
+    }
+
+    void show(double altitudeM) {
+        view_ = planet::viewFromPose(
+            {.latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = altitudeM, .pitchDeg = -60}, 100'000, 1.1,
+            800, 600);
+        planet_->settle(view_, lod_, planet::noUpload, 60);
+    }
+
+    // Frames half a second apart, until nothing is measured any more.
+    void runUntilDone() {
+        for (int i = 0; i < 60'000; ++i) {
+            advanceRuler(*planet_, timeS_ += 0.5, ruler_);
+            if (!ruler_.job) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        FAIL() << "it never ends";
+    }
+
+    tests::TemporaryFolder folder_;
+    std::unique_ptr<planet::Planet> planet_;
+    planet::LodSettings lod_ = planet::suddenLod();
+    planet::View view_;
+    Ruler ruler_;
+    double timeS_ = 0;
+    const glm::dvec3 a_ = 100'000.0 * planet::directionFromGeographic({0.17, 0.34});
+    const glm::dvec3 b_ = 100'000.0 * planet::directionFromGeographic({0.19, 0.37});
+};
+
+TEST_F(RulerTest, measuresOnceItHasTwoEnds) {
+    placeRulerEnd(ruler_, a_);
+    runUntilDone();
+    EXPECT_FALSE(ruler_.last);
+    placeRulerEnd(ruler_, b_);
+    runUntilDone();
+    ASSERT_TRUE(ruler_.last);
+    EXPECT_TRUE(ruler_.current);
+    const double angle = std::acos(glm::dot(glm::normalize(a_), glm::normalize(b_)));
+    EXPECT_NEAR(ruler_.last->summary.arcM, 100'000 * angle, 1e-3);
+    EXPECT_GT(ruler_.last->summary.ascentM, 0);
+    EXPECT_GT(ruler_.last->summary.worstErrorM, 0);
+}
+
+TEST_F(RulerTest, aThirdClickBeginsAgain) {
+    placeRulerEnd(ruler_, a_);
+    placeRulerEnd(ruler_, b_);
+    runUntilDone();
+    placeRulerEnd(ruler_, b_);
+    EXPECT_EQ(ruler_.ends, std::vector<glm::dvec3>{b_});
+    EXPECT_FALSE(ruler_.last);
+}
+
+TEST_F(RulerTest, swappedEndsSwapAscentAndDescent) {
+    placeRulerEnd(ruler_, a_);
+    placeRulerEnd(ruler_, b_);
+    runUntilDone();
+    const planet::ProfileSummary there = ruler_.last->summary;
+    swapRulerEnds(ruler_);
+    advanceRuler(*planet_, timeS_ += 0.5, ruler_);
+    EXPECT_FALSE(ruler_.current);
+    runUntilDone();
+    const planet::ProfileSummary back = ruler_.last->summary;
+    EXPECT_NEAR(back.riseM, -there.riseM, 1e-6);
+    EXPECT_NEAR(back.ascentM, there.descentM, 1e-3);
+    EXPECT_NEAR(back.descentM, there.ascentM, 1e-3);
+}
+
+TEST_F(RulerTest, isMeasuredAgainWhenOtherChunksAreDrawnAndOnlyThen) {
+    placeRulerEnd(ruler_, a_);
+    placeRulerEnd(ruler_, b_);
+    runUntilDone();
+    const double coarseM = ruler_.last->summary.worstErrorM;
+    advanceRuler(*planet_, timeS_ += 10, ruler_);
+    EXPECT_FALSE(ruler_.job) << "the same chunks are measured twice";
+    lod_.tauPx = 0.01;
+    show(20'000);
+    runUntilDone();
+    EXPECT_LT(ruler_.last->summary.worstErrorM, coarseM);
+}
+
+TEST_F(RulerTest, isMeasuredAtMostTwiceASecond) {
+    placeRulerEnd(ruler_, a_);
+    placeRulerEnd(ruler_, b_);
+    advanceRuler(*planet_, 10, ruler_);
+    ASSERT_TRUE(ruler_.job);
+    for (int i = 0; i < 60'000 && ruler_.job; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        advanceRuler(*planet_, 10.1, ruler_);
+    }
+    lod_.tauPx = 0.01;
+    show(20'000);
+    advanceRuler(*planet_, 10.2, ruler_);
+    EXPECT_FALSE(ruler_.current);
+    EXPECT_FALSE(ruler_.job);
+    advanceRuler(*planet_, 10.6, ruler_);
+    EXPECT_TRUE(ruler_.job);
+}
+
+TEST_F(RulerTest, aFileThatCannotBeReadIsReportedOnce) {
+    ruler_.heights = std::make_shared<planet::FinestHeights>(
+        [](const planet::ChunkId& parent, planet::BlockLocation, planet::StepsView) {
+            return planet::Result<planet::SiblingBlock>(
+                planet::ioError("hills.chk: reading the block of chunk " + planet::toString(parent)));
+        });
+    placeRulerEnd(ruler_, a_);
+    placeRulerEnd(ruler_, b_);
+    runUntilDone();
+    EXPECT_NE(ruler_.problem.find("hills.chk"), std::string::npos);
+    advanceRuler(*planet_, timeS_ += 10, ruler_);
+    EXPECT_FALSE(ruler_.job);
+    clearRuler(ruler_);
+    EXPECT_EQ(ruler_.problem, "");
+}
+
+TEST_F(RulerTest, keepsItsEndsOverAnotherPlanet) {
+    ruler_.takesClicks = true;
+    placeRulerEnd(ruler_, a_);
+    placeRulerEnd(ruler_, b_);
+    runUntilDone();
+    forgetGround(ruler_);
+    EXPECT_TRUE(ruler_.takesClicks);
+    EXPECT_EQ(ruler_.ends.size(), 2u);
+    EXPECT_FALSE(ruler_.last);
+    runUntilDone();
+    EXPECT_TRUE(ruler_.last);
+}
+
+// A camera at the centre of the world looks along -z; a point 1000 m ahead and 10 m right of the axis.
+TEST(RulerEndInPicture, isWhereThePictureShowsIt) {
+    planet::View view;
+    view.eyeM = {0, 0, 0};
+    view.right = {1, 0, 0};
+    view.up = {0, 1, 0};
+    view.back = {0, 0, 1};
+    view.widthPx = 1000;
+    view.heightPx = 500;
+    view.horizontalFovRad = 2 * std::atan(0.5);  // 1000 px across 1000 m at 1000 m
+    const RulerEndInPicture ahead = rulerEndIn(view, {10, -20, -1000});
+    ASSERT_TRUE(ahead.atPx);
+    EXPECT_NEAR(ahead.atPx->x, 10, 1e-9);
+    EXPECT_NEAR(ahead.atPx->y, -20, 1e-9);
+    EXPECT_NEAR(ahead.pixelM, 1, 1e-3);
+    EXPECT_FALSE(rulerEndIn(view, {0, 0, 5}).atPx);
+}
+
+}  // namespace
+}  // namespace worldy

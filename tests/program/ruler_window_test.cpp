@@ -1,0 +1,32 @@
+// The ruler in the window: two clicks on the ground measure what lies between them.
+#include <gtest/gtest.h>
+
+#include "tests/program/editor_window.h"
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+TEST(RulerWindowTest, twoClicksMeasureTheGroundAndNoChunkIsSelected) {
+    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const Ran ran = runInWindow(folder, "planet.chk", R"sh(
+selected() { [ "$(counter selected)" = "$1" ]; }
+key ctrl+shift+r; expect shown "ruler/Click places"
+plain=$(viewport)
+click "ruler/Click places"
+click viewport/picture 0.45 0.55; expect differs "$plain"; hidden ruler/Profile || echo "one end has a profile"
+click viewport/picture 0.6 0.4; expect shown ruler/Profile
+selected none || echo "a click of the ruler selects $(counter selected)"
+measured=$(viewport)
+click ruler/Clear; expect hidden ruler/Profile; expect differs "$measured"
+click "ruler/Click places"; click viewport/picture 0.5 0.5; ! selected none || echo "a click selects nothing"
+)sh",
+                                usualScreen);
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+}
+
+}  // namespace
+}  // namespace worldy

@@ -1,0 +1,64 @@
+// A start without a file goes on with the last session.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/program/editor_window.h"
+#include "tests/program/small_planet.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+
+class SessionWindowTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
+        bakePlanet(folder);
+    }
+    Ran drive(const std::string& arguments, const std::string& steps) {
+        Ran ran = runInWindow(folder, arguments, steps);
+        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+        EXPECT_EQ(ran.output, "") << ran.errors;
+        return ran;
+    }
+
+    const TemporaryFolder folder;
+};
+
+TEST_F(SessionWindowTest, aStartWithoutAFileShowsTheLastPlanetFromTheLastCamera) {
+    drive("planet.chk", R"sh(
+first=$(counter camera); point viewport/picture 0.6 0.4
+for i in 1 2 3 4 5 6; do xdotool click 4; done; frames 20; settle
+[ "$(counter camera)" != "$first" ] || echo "the camera does not move"
+counter camera >last_camera
+)sh");
+    drive("", R"sh(
+[ "$(counter file)" = planet.chk ] || echo "$(counter file) is shown"
+rounded() { tr , "\n" | xargs printf "%.3f " | sed "s,-\(0\.000\),\1,g"; }
+is_there() { [ "$(counter camera | rounded)" = "$(rounded <last_camera)" ]; }
+expect is_there || echo "the camera is at $(counter camera), not at $(cat last_camera)"
+)sh");
+}
+
+// What is shown instead is baked first, which these steps do not wait for.
+TEST_F(SessionWindowTest, aLastSessionThatCannotBeOpenedIsReportedAndKept) {
+    const std::filesystem::path file = folder.path() / "config" / "worldy" / "session.toml";
+    std::filesystem::create_directories(file.parent_path());
+    const auto report = [&](const std::string& text) {
+        std::ofstream(file) << text;
+        const Ran ran =
+            runShell(folder, "'" WORLDY_BINARY
+                             "' & worldy=$!; for i in $(seq 600); do "
+                             "grep -q 'last session' .stderr && break; sleep 0.1; done; kill -9 $worldy");
+        EXPECT_EQ(contentOf(file), text);
+        return ran.errors;
+    };
+    EXPECT_THAT(report("file = 'gone.chk'\n"),
+                AllOf(HasSubstr("gone.chk"), HasSubstr("the planet of the last session is not opened")));
+    EXPECT_THAT(report("file = 3\n"),
+                AllOf(HasSubstr("session.toml: line 1"), HasSubstr("the last session is not opened")));
+}
+
+}  // namespace
+}  // namespace worldy

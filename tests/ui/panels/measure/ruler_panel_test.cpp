@@ -1,0 +1,120 @@
+#include "ui/panels/measure/ruler_panel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/support/panel_fixture.h"
+#include "tests/support/planet_fixture.h"
+#include "ui/panels/measure/ruler_profile.h"
+
+namespace worldy::ui {
+namespace {
+
+// Three places of a planet of 1000 km: finest heights 0, 100 and 50 m; nothing is drawn at the last one.
+MeasuredGround threePlaces() {
+    MeasuredGround measured;
+    measured.profile.radiusM = 1e6;
+    const auto add = [&](double alongM, double finestM, std::optional<double> drawnM) {
+        const double turned = alongM / measured.profile.radiusM;
+        measured.profile.points.push_back({{std::cos(turned), std::sin(turned), 0}, alongM, finestM, drawnM});
+    };
+    add(0, 0, 2);
+    add(1000, 100, 93);
+    add(2000, 50, std::nullopt);
+    measured.summary = planet::summaryOf(measured.profile);
+    return measured;
+}
+
+class RulerPanel : public testing::Test {
+protected:
+    RulerPanel() { view_.planet = planet_.get(); }
+
+    Commands frame() {
+        Commands commands;
+        window_.frame([&] { rulerPanel(view_, commands); });
+        return commands;
+    }
+    Commands clicked(std::string_view label) {
+        Commands all;
+        frame();
+        frame();
+        window_.click(label, 0.5f, [&] { addAsked(frame(), all); });
+        return all;
+    }
+    void showMeasured() {
+        view_.instruments.ruler = {.ends = ends_, .measured = &measured_, .current = true};
+        view_.instruments.ruler.inPicture = {{glm::dvec2(0, 0), 1}, {glm::dvec2(30, 40), 2}};
+    }
+
+    PanelWindow window_{{400, 900}};
+    std::unique_ptr<planet::Planet> planet_ = planet::openFake();
+    const MeasuredGround measured_ = threePlaces();
+    const std::vector<glm::dvec3> ends_{{1e6, 0, 0}, {1e6 * std::cos(0.002), 1e6 * std::sin(0.002), 0}};
+    FrameStats stats_;
+    std::deque<FrameSample> history_;
+    planet::LodChanges changes_;
+    std::deque<LogLine> log_;
+    EditorView view_{
+        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+};
+
+TEST_F(RulerPanel, asksForClicks) {
+    const Commands commands = clicked("Click places");
+    ASSERT_EQ(commands.size(), 1u);
+    ASSERT_TRUE(commands[0].as<TakeRulerClicks>());
+    EXPECT_TRUE(commands[0].as<TakeRulerClicks>()->on);
+}
+
+TEST_F(RulerPanel, withoutEndsThereIsNothingToSwapClearOrCopy) {
+    for (const char* label : {"Swap", "Clear", "Copy"}) EXPECT_TRUE(clicked(label).empty()) << label;
+    EXPECT_FALSE(window_.isShown("Profile"));
+}
+
+TEST_F(RulerPanel, swapsAndClearsItsEnds) {
+    showMeasured();
+    Commands commands = clicked("Swap");
+    ASSERT_EQ(commands.size(), 1u);
+    EXPECT_TRUE(commands[0].as<SwapRulerEnds>());
+    commands = clicked("Clear");
+    ASSERT_EQ(commands.size(), 1u);
+    EXPECT_TRUE(commands[0].as<ClearRuler>());
+}
+
+TEST_F(RulerPanel, copiesEachPlaceOfTheProfile) {
+    showMeasured();
+    const Commands commands = clicked("Copy");
+    ASSERT_EQ(commands.size(), 1u);
+    ASSERT_TRUE(commands[0].as<CopyText>());
+    const std::string& text = commands[0].as<CopyText>()->text;
+    EXPECT_EQ(std::ranges::count(text, '\n'), 4) << text;
+    EXPECT_NE(text.find("\n1000.000\t0.00000000\t0.05729578\t100.0000\t93.0000\n"), std::string::npos)
+        << text;
+    EXPECT_TRUE(text.ends_with("\t50.0000\t\n")) << text;
+}
+
+TEST_F(RulerPanel, drawsAGroundThatIsFlatOrIsNotDrawn) {
+    MeasuredGround flat = measured_;
+    for (planet::ProfilePoint& point : flat.profile.points) {
+        point.finestM = 0;
+        point.drawnM.reset();
+    }
+    flat.summary = planet::summaryOf(flat.profile);
+    showMeasured();
+    view_.instruments.ruler.measured = &flat;
+    view_.instruments.ruler.current = false;
+    frame();
+    frame();
+    EXPECT_TRUE(window_.isShown("Profile"));
+}
+
+TEST(RulerHeightText, hasCentimetresBelowAHundredMetres) {
+    EXPECT_EQ(heightText(12.346), "12.35 m");
+    EXPECT_EQ(heightText(-8849.4), "-8849 m");
+}
+
+}  // namespace
+}  // namespace worldy::ui
