@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <sstream>
 
 #include "app/base/colour_text.h"
+#include "app/base/edit_distance.h"
 #include "app/base/toml_file.h"
 #include "app/base/utf8.h"
 #include "app/settings/layer_file.h"
@@ -178,22 +178,6 @@ struct AllowedText {
         return fmt::format("one of {}", fmt::join(choice.names, ", "));
     }
 };
-
-// Returns Levenshtein's distance, the number of letters that differ.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t above = row[j + 1];
-            row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row.back();
-}
 
 std::string_view withoutSpaces(std::string_view text) {
     const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
