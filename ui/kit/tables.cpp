@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
@@ -131,11 +132,13 @@ std::optional<TableSort> chosenSort() {
 
 void cell(const std::string& text) {
     ImGui::TableNextColumn();
+    highlightHits(text);
     ImGui::TextUnformatted(text.c_str());
 }
 
 void cell(const std::string& text, const ImVec4& colour) {
     ImGui::TableNextColumn();
+    highlightHits(text);
     ImGui::TextColored(colour, "%s", text.c_str());
 }
 

@@ -313,7 +313,7 @@ TEST_F(PanelControls, theLogIsCopiedAsItIsFiltered) {
 }
 
 TEST_F(PanelControls, aNewLogLineIsShownAtOnce) {
-    states_.log.filter = {'b', 'r'};
+    states_.log.filter.text = {'b', 'r'};
     for (int i = 0; i < 3; ++i) {
         log_.push_back({LogLevel::Error, "14:03:23", i == 1 ? "fine" : "broken"});
         frame(PanelId::Log);

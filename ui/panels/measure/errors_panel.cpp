@@ -13,6 +13,7 @@
 #include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
@@ -271,15 +272,21 @@ constexpr std::array worstColumns = {
         "Distance in metres between the sample and the drawn surface, where the measured error is largest."},
     TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk."}};
 
-void worstList(const EditorView& view, Commands& commands) {
+void worstList(const EditorView& view, ErrorsPanelState& state, Commands& commands) {
+    const ErrorMeasurement& last = *view.instruments.errors.last;
+    filterBox(state.filter, "chunks");
+    std::vector<std::size_t> rows;  // indices of the report's chunks
+    for (const std::size_t chunk : last.worstFirst)
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {planet::toString(last.report.chunks[chunk].id)}))
+            rows.push_back(chunk);
+    if (rows.empty() && !state.filter.empty()) return emptyState("No chunk matches the filter.");
+    const HitHighlight highlight(state.filter);
     const std::string widest = widestChunkName(view);
     std::array columns = worstColumns;
     columns[0].widest = widest.c_str();
     if (!beginWideTable("worst", columns, 1)) return;
-    const ErrorMeasurement& last = *view.instruments.errors.last;
-    const auto chunkOf = [&](std::size_t row) -> const ChunkError& {
-        return last.report.chunks[last.worstFirst[row]];
-    };
+    const auto chunkOf = [&](std::size_t row) -> const ChunkError& { return last.report.chunks[rows[row]]; };
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const ChunkError& chunk = chunkOf(row);
         switch (column) {
@@ -299,7 +306,7 @@ void worstList(const EditorView& view, Commands& commands) {
                 return chunk.meanPx;
         }
     };
-    tableRows(last.worstFirst.size(), key, [&](std::size_t row) { chunkRow(chunkOf(row), view, commands); });
+    tableRows(rows.size(), key, [&](std::size_t row) { chunkRow(chunkOf(row), view, commands); });
     ImGui::EndTable();
 }
 
@@ -323,7 +330,7 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
                    figures(*view.instruments.errors.last);
                }},
         Column{"Measured against drawn bound", 1, 0, [&] { scatter(view, state, commands); }},
-        Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, commands); }}};
+        Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, state, commands); }}};
     drawColumns("errors", columns);
 }
 

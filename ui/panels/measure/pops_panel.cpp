@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "app/base/plot_scale.h"
 #include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/tables.h"
@@ -247,6 +247,18 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
 void worstFirst(const EditorView& view, PopsPanelState& state) {
     const auto& events = view.instruments.pops.meter->events();
     if (events.empty()) return emptyState("No level changes recorded.");
+    filterBox(state.filter, "level changes");
+    std::vector<std::size_t> order;
+    order.reserve(events.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const PopEvent& event = events[i];
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {planet::popCauseName(event.cause), planet::toString(event.chunk),
+                                         planet::popNote(event)}))
+            order.push_back(i);
+    }
+    if (order.empty()) return emptyState("No level change matches the filter.");
+    const HitHighlight highlight(state.filter);
     const std::string chunk = widestChunkName(view);
     const std::array columns = {TableColumn{"Ago", 0.8f, nullptr, "123 s"},
                                 TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
@@ -257,12 +269,10 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
                                 TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
                                 TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
     if (!beginWideTable("worst", columns)) return;
-    std::vector<std::size_t> order(events.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
     const auto worse = [&](std::size_t a, std::size_t b) { return planet::isWorsePop(events[a], events[b]); };
     if (const std::optional<TableSort> sort = chosenSort()) {
         const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
-            const PopEvent& event = events[row];
+            const PopEvent& event = events[order[row]];
             switch (column) {
                 case 0:
                     return -event.timeS;
@@ -282,8 +292,9 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
                     return event.besidePx;
             }
         };
-        order = tableOrder(events.size(), sort, key);
-        tableRows(order.size(), [&](std::size_t row) { eventRow(view, events[order[row]], row, state); });
+        const std::vector<std::size_t> sorted = tableOrder(order.size(), sort, key);
+        tableRows(sorted.size(),
+                  [&](std::size_t row) { eventRow(view, events[order[sorted[row]]], row, state); });
     } else {
         sortedTableRows(order, worse, [&](std::size_t event, std::size_t row) {
             eventRow(view, events[event], row, state);

@@ -16,6 +16,7 @@
 #include "planet/select/screen_error.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/setting_controls.h"
@@ -390,6 +391,8 @@ void kindFilter(const EditorView& view, PagingPanelState& state, bool goesOn = t
 }
 
 void queueFilter(const EditorView& view, PagingPanelState& state) {
+    filterBox(state.filter, "requests");
+    sameLineIfRoom(checkboxWidth("Load"));
     ImGui::Checkbox("Load", &state.showPageIns);
     tooltip("Load requests, most urgent first.");
     ImGui::SameLine();
@@ -420,6 +423,22 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
     return queue.subspan(first, (state.showPageOuts ? queue.size() : firstOut) - first);
 }
 
+// Returns the rows that also pass the text filter.
+std::vector<const PagingRow*> filteredQueue(const EditorView& view, const PagingPanelState& state) {
+    std::vector<const PagingRow*> rows;
+    for (const PagingRow& row : shownQueue(state)) {
+        const bool isLoad = row.type == planet::PagingType::PageIn;
+        const auto passesFilter = [&] {
+            const double ageS = std::max(view.planet->lastStep().nowS - row.askedAtS, 0.0);
+            return passes(state.filter.view(),
+                          {planet::toString(row.parent), kindText(row.kind), isLoad ? "load" : "evict",
+                           reason(*view.planet, row, state.shownView, ageS)});
+        };
+        if (state.filter.empty() || passesFilter()) rows.push_back(&row);
+    }
+    return rows;
+}
+
 const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
     if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No requests of this kind.";
     const planet::PagingCounters& p = view.frames.stats.paging;
@@ -434,8 +453,11 @@ const char* emptyQueueText(const EditorView& view, const PagingPanelState& state
 
 void queueTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
     queueFilter(view, state);
-    const std::span<const PagingRow> queue = shownQueue(state);
-    if (queue.empty()) return emptyState(emptyQueueText(view, state));
+    const std::vector<const PagingRow*> queue = filteredQueue(view, state);
+    if (queue.empty())
+        return emptyState(state.filter.empty() ? emptyQueueText(view, state)
+                                               : "No request matches the filter.");
+    const HitHighlight highlight(state.filter);
     const std::string chunk = widestChunkName(view);
     const std::array columns = {
         TableColumn{"Type", 0.6f, nullptr, "evict"}, TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
@@ -447,7 +469,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
         return std::max(view.planet->lastStep().nowS - row.askedAtS, 0.0);
     };
     const auto key = [&](std::size_t at, std::size_t column) -> SortKey {
-        const PagingRow& row = queue[at];
+        const PagingRow& row = *queue[at];
         const std::optional<std::size_t> plain = withoutKind(view, column, 1);
         if (!plain) return std::string(kindText(row.kind));
         switch (*plain) {
@@ -464,7 +486,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
         }
     };
     tableRows(queue.size(), key, [&](std::size_t at) {
-        const PagingRow& row = queue[at];
+        const PagingRow& row = *queue[at];
         const double ageS = ageOf(row);
         cell(row.type == planet::PagingType::PageIn ? "load" : "evict");
         rowLink(row.parent, row.kind, view, commands);
@@ -534,6 +556,10 @@ OutcomeLook lookOf(planet::PagingOutcome outcome) {
 bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
     if (state.onlyMerged && event.timesAsked < 2) return false;
     if (!isShown(event.kind, state.shownKind)) return false;
+    if (!state.filter.empty() &&
+        !passes(state.filter.view(),
+                {planet::toString(event.parent), kindText(event.kind), lookOf(event.outcome).name}))
+        return false;
     switch (event.outcome) {
         case planet::PagingOutcome::Loaded:
             return state.showLoaded;
@@ -548,6 +574,8 @@ bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
 }
 
 void historyFilter(const EditorView& view, PagingPanelState& state) {
+    filterBox(state.filter, "requests");
+    sameLineIfRoom(checkboxWidth("Loaded"));
     ImGui::Checkbox("Loaded", &state.showLoaded);
     tooltip("Blocks read and made resident.");
     sameLineIfRoom(checkboxWidth("Failed"));
@@ -586,6 +614,7 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
         if (isShown(*event, state)) shown.push_back(&*event);
     if (shown.empty())
         return emptyState(history.empty() ? "No request has finished yet." : "No requests of this kind.");
+    const HitHighlight highlight(state.filter);
     const std::string chunk = widestChunkName(view);
     const std::array columns = {TableColumn{"Outcome", 1.1f, nullptr, "cancelled"},
                                 TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
@@ -693,7 +722,7 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
     tooltip("Blocks that could not be read: those that will be retried, and those that failed permanently.");
     state.failedShown = open;
     if (!open) return;
-    failedTable(view, state.sample.failed, commands);
+    failedTable(view, state.sample.failed, state.filter, commands);
     ImGui::EndTabItem();
 }
 

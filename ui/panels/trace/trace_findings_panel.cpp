@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/base/text.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
@@ -74,10 +75,18 @@ void faults(const EditorView& view, TraceFindingsPanelState& state, Commands& co
         "thrash: a node splits and merges again and again. late_page: data arrives late or never. "
         "starvation: a node is drawn too coarse for long for want of data. level_step: neighbours differ by "
         "more than one level. too_coarse, too_fine: selection ignores its own tolerance.");
+    filterBox(state.filter, "faults");
     std::vector<const planet::TraceFault*> rows;
-    for (const planet::TraceFault& fault : report.faults)
-        if (state.fault == 0 || fault.kind == faultKinds[static_cast<std::size_t>(state.fault) - 1])
+    for (const planet::TraceFault& fault : report.faults) {
+        const bool isKind =
+            state.fault == 0 || fault.kind == faultKinds[static_cast<std::size_t>(state.fault) - 1];
+        if (isKind && (state.filter.empty() ||
+                       passes(state.filter.view(), {planet::traceFaultName(fault.kind), fault.sentence,
+                                                    traceNodeName(view, fault.node)})))
             rows.push_back(&fault);
+    }
+    if (rows.empty()) return emptyState("No fault matches the filter.");
+    const HitHighlight highlight(state.filter);
     constexpr std::array columns = {
         TableColumn{"Fault", 0.5f, "Kind of the fault.", "drawn_twice"},
         TableColumn{"Frame", 0.4f, "The first frame. A click shows the frame and selects the node.",
@@ -98,6 +107,7 @@ void faults(const EditorView& view, TraceFindingsPanelState& state, Commands& co
         ImGui::TableNextColumn();
         const bool isShown = view.trace.selected == fault.node && view.trace.frame &&
                              view.trace.frame->frame.number == fault.firstFrame;
+        highlightHits(planet::traceFaultName(fault.kind));
         if (ImGui::Selectable(planet::traceFaultName(fault.kind), isShown,
                               ImGuiSelectableFlags_SpanAllColumns))
             goTo(fault.firstFrame, fault.view, fault.node, commands);
@@ -133,11 +143,18 @@ void switches(const EditorView& view, TraceFindingsPanelState& state, Commands& 
                 "unknown: the error or the limit is not known.");
     checkbox("Jumps only", state.jumpsOnly, false,
              "Leaves out the switches of nodes that were morphed into the other level's surface.");
+    filterBox(state.filter, "switches");
     for (const planet::TraceSwitch* const one : ofView) {
         const bool isCause =
             state.cause == 0 || one->cause == causes[static_cast<std::size_t>(state.cause) - 1];
-        if (isCause && !(state.jumpsOnly && one->isMorphed)) rows.push_back(one);
+        if (!isCause || (state.jumpsOnly && one->isMorphed)) continue;
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {traceNodeName(view, one->node), one->isSplit ? "split" : "merged",
+                                         planet::traceSwitchCauseName(one->cause)}))
+            rows.push_back(one);
     }
+    if (rows.empty() && !state.filter.empty()) return emptyState("No switch matches the filter.");
+    const HitHighlight highlight(state.filter);
     if (history.unlistedSwitches > 0)
         wrappedText(fmt::format("{} later switches are beyond the limit of the list.",
                                 countText(static_cast<double>(history.unlistedSwitches))),
