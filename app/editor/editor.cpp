@@ -15,6 +15,7 @@
 #include "app/editor/shortcuts.h"
 #include "planet/planet_tools.h"
 #include "ui/kit/theme.h"
+#include "ui/shell/menu_bar.h"
 #include "ui/shell/status_bar.h"
 
 namespace worldy {
@@ -42,6 +43,7 @@ Editor::Editor(const Settings& settings, const Log& log)
     settings_.settings = settings;
     camera_.bookmarks = loadBookmarks(bookmarksFile());
     if (!camera_.bookmarks.problem.empty()) log->warn("{}", camera_.bookmarks.problem);
+    readKeys(window_, notices_);
     camera_.flights = availableFlights();
     recording_ = openRecordings(recordingsFolder());
 }
@@ -102,7 +104,11 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     const ui::EditorView shown = view(session);
     drawPanels(window_, {session, shown, layout, settings_.settings, viewport_, files_.dialog, notices_},
                commands);
-    obeyShortcuts(window.pressedKeys(), {shown, settings_.settings.view, workspace, window_.menu, commands});
+    obeyShortcuts(window.pressedKeys(),
+                  {shown, settings_.settings.view, workspace, window_.menu, window_.keys, commands});
+    if (const auto click = std::exchange(window_.menu.mouse, std::nullopt))
+        window.pressMouse({click->x, click->y}, click->button);
+    if (const std::string why = std::exchange(window_.menu.refused, {}); !why.empty()) show(notices_, why);
     // A replay's settings are not the user's, so they are not recorded for undo.
     if (!replaying())
         settings_.undo.record(before, settings_.settings.view, ImGui::IsAnyItemActive(), frames_.timeS);

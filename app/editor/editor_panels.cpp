@@ -10,7 +10,12 @@
 #include "ui/kit/widgets.h"
 #include "ui/shell/bake_window.h"
 #include "ui/shell/compare_overlay.h"
+#include "ui/shell/docks.h"
 #include "ui/shell/drop_question.h"
+#include "ui/shell/focus.h"
+#include "ui/shell/help_windows.h"
+#include "ui/shell/menu_bar.h"
+#include "ui/shell/palette.h"
 #include "ui/shell/status_bar.h"
 #include "ui/shell/viewport_overlay.h"
 
@@ -24,9 +29,9 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-    ui::beginFixedWindow(
-        name, picture.rect,
-        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
+    ui::beginFixedWindow(name, picture.rect,
+                         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                             ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNavInputs);
     ImGui::PopStyleVar();
     const planet::gl::RenderTarget* target = picture.shownTarget();
     if (!target) return;
@@ -74,7 +79,7 @@ ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorVi
 void emptyViewport(const Session& session, const ui::EditorView& view, const ui::Rect& rect,
                    Viewport& viewport, ui::Commands& commands) {
     viewport.main.pointer = viewport.observer.pointer = {};
-    ui::beginFixedWindow("viewport", rect);
+    ui::beginFixedWindow("viewport", rect, ImGuiWindowFlags_NoNavInputs);
     ImGui::End();
     const ui::BakeWindowCommands asked = ui::bakeWindow(bakeWindowInputOf(session, view), rect);
     if (asked.cancel) commands.push_back(ui::CancelBake{});
@@ -88,7 +93,8 @@ void drawPanels(WindowController& window, const PanelContext& context, ui::Comma
     const ui::Rect& middle = context.layout.viewport;
     Workspace& workspace = context.settings.workspace;
     ViewSettings& settings = context.settings.view;
-    ui::menuBar(view, window.menu, workspace, settings, commands);
+    const ui::ActionContext actions{view, settings, workspace, window.menu, window.keys, commands};
+    ui::menuBar(actions);
     if (view.planet)
         viewportWindows(view, settings, context.viewport, commands);
     else
@@ -97,11 +103,13 @@ void drawPanels(WindowController& window, const PanelContext& context, ui::Comma
         ui::drawDock(dock, context.layout, view, window.panels, workspace, settings, commands);
     }
     ui::statusBar(view, settings, context.layout.statusBar);
-    ui::helpWindows(window.menu);
+    ui::helpWindows(actions);
     ui::confirmationLine(context.notices.confirmation, context.notices.timeS, middle);
     ui::openDialog(context.openDialog, commands);
     ui::messageBox(context.notices.message, commands);
     ui::dropQuestion(view.sources, commands);
+    ui::palette(actions);
+    ui::followFocus(workspace, window.menu);
 }
 
 }  // namespace worldy

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/editor/overloaded.h"
@@ -51,7 +52,34 @@ ScreenshotNote noteOf(const WindowContent& content) {
     return note;
 }
 
+void writeKeys(Notices& notices) {
+    const std::filesystem::path file = keyFilePath();
+    if (succeeded(notices, writeKeyFile(file, ui::keyedCommands()), "The key file was not written"))
+        confirm(notices, fmt::format("Keys written: {}", file.string()));
+}
+
+// Returns the first problems in lines, and how many more the log has.
+std::string problemText(const std::vector<std::string>& problems) {
+    constexpr std::size_t most = 6;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(problems.size(), most); ++i)
+        text += (i > 0 ? "\n" : "") + problems[i];
+    if (problems.size() > most) text += fmt::format("\n{} more are in the log.", problems.size() - most);
+    return text;
+}
+
 }  // namespace
+
+void readKeys(WindowController& controller, Notices& notices) {
+    const KeyFile file = readKeyFile(keyFilePath(), ui::keyedCommands());
+    controller.keys = ui::actionKeys(file.keys);
+    ui::publishKeyNames(controller.keys);
+    if (file.problems.empty()) return;
+    for (std::size_t i = 1; i < file.problems.size(); ++i) notices.log->error("{}", file.problems[i]);
+    tellError(notices, {"Keys of the key file are not used", problemText(file.problems),
+                        "The commands of these lines have their default keys. Fix the file and choose Help > "
+                        "Reload keys."});
+}
 
 void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
              const WindowContent& content, Notices& notices) {
@@ -59,6 +87,11 @@ void execute(WindowController& controller, const ui::WindowCommand& command, con
                    [&](const ui::CopyCommandLine&) { copyCommandLine(window, content, notices); },
                    [&](const ui::CopyText& text) { window.setClipboard(text.text); },
                    [&](const ui::TakeScreenshot& screenshot) { controller.screenshotPending = screenshot; },
+                   [&](const ui::WriteKeyFile&) { writeKeys(notices); },
+                   [&](const ui::ReloadKeys&) {
+                       readKeys(controller, notices);
+                       if (notices.message.title.empty()) confirm(notices, "Keys read again");
+                   },
                    [&](const ui::Quit&) { window.close(); },
                },
                command);

@@ -14,7 +14,7 @@
 #include "app/settings/settings.h"
 #include "app/window/window.h"
 #include "ui/model/commands.h"
-#include "ui/shell/menu_bar.h"
+#include "ui/shell/actions.h"
 #include "ui/shell/panels.h"
 
 namespace worldy {
@@ -22,6 +22,7 @@ namespace worldy {
 struct WindowController {
     ui::PanelStates panels;
     ui::MenuState menu;
+    ui::ActionKeys keys = ui::defaultKeys();
     std::deque<LogLine> logLines;
     std::optional<ui::TakeScreenshot> screenshotPending;  // kept until a frame is drawn with its settings
     std::filesystem::path itemMapFile;                    // for the positions of controls; empty: not written
@@ -37,6 +38,9 @@ struct WindowContent {
 };
 void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
              const WindowContent& content, Notices& notices);
+
+// Reads the keys from keys.toml. A message tells what is wrong in the file.
+void readKeys(WindowController& controller, Notices& notices);
 
 // Writes the requested screenshot, if any, into a new file, with the settings that made it. Call when the
 // frame is drawn but not yet presented. Waits for a frame that is drawn as the settings require.

@@ -183,7 +183,7 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "tolerance, δc the geometric error in metres, age the time since loading, and measured the last "
           "measured error (True error panel) relative to the tolerance. Leaf depth is the level of the "
           "deepest leaf under a chunk, sample spacing the distance of the samples there, and source the "
-          "topmost layer of the source that has a height in the middle of the chunk. F8 cycles through them.",
+          "topmost layer of the source that has a height in the middle of the chunk.",
           Choice{asByte(overlay.colourBy), colourByNames, colourByLabels}},
          {"overlay", "opacity", "Opacity",
           "Opacity of the tint. Smaller: more of the ground shows, but colours are harder to tell apart. At "
@@ -206,7 +206,7 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "descendants. Slow with thousands of chunks.",
           Flag{&overlay.bounds}},
          {"overlay", "wireframe", "Wireframe",
-          "Draws the mesh edges over a dimmed surface (F1). Triangles smaller than about three pixels appear "
+          "Draws the mesh edges over a dimmed surface. Triangles smaller than about three pixels appear "
           "as uniform grey.",
           Flag{&overlay.wireframe}},
          {"overlay", "skirt_paint", "Skirts",
@@ -219,7 +219,7 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "few tenths of a millisecond per frame.",
           Choice{asByte(overlay.labels), chunkLabelsNames, chunkLabelsLabels}},
          {"overlay", "cube", "Unprojected cube",
-          "Draws the cube before it is projected onto the sphere (F4). LOD selection still uses the sphere, "
+          "Draws the cube before it is projected onto the sphere. LOD selection still uses the sphere, "
           "so screen-space errors do not apply to this picture.",
           Flag{&overlay.cube}},
          {"overlay", "clipmap", "Clipmap",
@@ -588,8 +588,8 @@ void addCompare(Fields& fields, CompareSettings& compare) {
         fields.end(),
         {{"compare", "mode", "Show",
           "How the pictures A and B are shown. Side by side: the middle half of each picture at the same "
-          "pixel size. Wipe: a movable divider. Difference: colour difference. Flip: one picture, F9 "
-          "switches.",
+          "pixel size. Wipe: a movable divider. Difference: colour difference. Flip: one picture "
+          "at a time.",
           Choice{asByte(compare.mode), compareModeNames}, "Compare: show"},
          {"compare", "gain", "Gain",
           "Factor applied to the difference of each channel. 255: any difference is full brightness.",
@@ -598,8 +598,7 @@ void addCompare(Fields& fields, CompareSettings& compare) {
           "Position of the divider as a fraction of the width, with A on the left and B on the right. You "
           "can also drag it in the viewport.",
           Number{&compare.wipe, {0, 1, ""}}},
-         {"compare", "show_b", "Show B (F9)", "Shows B in flip mode. Off: shows A.", Flag{&compare.showB},
-          "Show B"}});
+         {"compare", "show_b", "Show B", "Shows B in flip mode. Off: shows A.", Flag{&compare.showB}}});
 }
 
 void addViewSettings(Fields& fields, ViewSettings& view) {

@@ -93,6 +93,14 @@ struct Window::Glfw {
 
 namespace {
 
+// With Ctrl, these keys move the focus and the tabs (ui/shell/actions.cpp). ImGui would list its windows, and
+// scroll.
+bool isCommandOnly(const InputEvent& event) {
+    const bool moves =
+        event.code == GLFW_KEY_TAB || event.code == GLFW_KEY_PAGE_UP || event.code == GLFW_KEY_PAGE_DOWN;
+    return moves && (event.modifiers & GLFW_MOD_CONTROL) != 0;
+}
+
 int glfwAction(InputKind kind) {
     if (kind == InputKind::KeyRepeat) return GLFW_REPEAT;
     return kind == InputKind::KeyUp ? GLFW_RELEASE : GLFW_PRESS;
@@ -144,6 +152,7 @@ std::optional<glm::dvec2> Window::Glfw::giveInput() {
             case InputKind::KeyDown:
             case InputKind::KeyRepeat:
                 pressedKeys.push_back({event.code, event.modifiers});
+                if (isCommandOnly(event)) break;
                 [[fallthrough]];
             case InputKind::KeyUp:
                 ImGui_ImplGlfw_KeyCallback(window, event.code, event.scancode, glfwAction(event.kind),
@@ -204,6 +213,7 @@ void Window::startImGui(const WindowConfig& config) {
     ImGui::GetIO().IniFilename = imguiFile_.c_str();
     // Otherwise ImGui frees tables of hidden panels, which come back a frame too narrow.
     ImGui::GetIO().ConfigMemoryCompactTimer = -1;
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
     glfw_->listen();
     ImGui_ImplOpenGL3_Init("#version 330 core");
@@ -288,6 +298,11 @@ void Window::endFrame(const std::function<void()>& drawn) {
 
 const std::vector<KeyPress>& Window::pressedKeys() const {
     return glfw_->pressedKeys;
+}
+
+void Window::pressMouse(glm::dvec2 at, int button) const {
+    for (const InputKind kind : {InputKind::ButtonDown, InputKind::ButtonUp})
+        glfw_->input.add({.kind = kind, .code = button, .pointer = at});
 }
 
 std::size_t Window::queuedInput() const {

@@ -11,6 +11,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -80,7 +81,9 @@ struct Draw {
 };
 
 std::string tipOf(const Field& field, const std::string& help) {
-    return fmt::format("{}\n{}: {}.", help, field.name(), summaryOf(field));
+    const std::string key = keyOf(field.name());
+    return fmt::format("{}\n{}: {}.{}", help, field.name(), summaryOf(field),
+                       key.empty() ? "" : "\nKey: " + key);
 }
 
 }  // namespace
@@ -91,6 +94,10 @@ std::string settingTip(const Field& field) {
 
 void noteSetting(const Field& field) {
     if (collectsItems()) noteItem(field.name());
+}
+
+bool settingControl(const Field& field) {
+    return SettingControls::draw(field, {});
 }
 
 SettingControls::SettingControls(ViewSettings& settings) : fields_(fieldsOf(settings)) {}

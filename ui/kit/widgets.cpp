@@ -313,7 +313,9 @@ void emptyState(const char* text) {
 bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    beginFixedWindow(id, rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground);
+    // Commands move the edges of docks by keys.
+    beginFixedWindow(id, rect,
+                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav);
     ImGui::InvisibleButton("bar", {rect.width, rect.height});
     const bool active = ImGui::IsItemActive();
     const bool lit = active || ImGui::IsItemHovered();

@@ -148,8 +148,10 @@ struct CopyText {
 struct TakeScreenshot {
     bool withPanels = false;
 };
+struct WriteKeyFile {};  // with all commands and their default keys; an existing file is kept
+struct ReloadKeys {};
 struct Quit {};
-using WindowCommand = std::variant<CopyCommandLine, CopyText, TakeScreenshot, Quit>;
+using WindowCommand = std::variant<CopyCommandLine, CopyText, TakeScreenshot, WriteKeyFile, ReloadKeys, Quit>;
 
 // Texture layers.
 struct LoadLayerSet {

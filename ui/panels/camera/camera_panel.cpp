@@ -12,6 +12,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/camera_heights.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -93,7 +94,7 @@ void poseSection(const EditorView& view, const ViewSettings& settings, CameraPan
         }
         endValues();
     }
-    if (button("Reset", "Moves the camera to where this session started (F3)."))
+    if (button("Reset", withKey("Moves the camera to where this session started.", "reset_camera").c_str()))
         commands.push_back(ResetCamera{});
     sameLineForButton("Set as start");
     if (button("Set as start", "Future sessions start with this view."))

@@ -12,6 +12,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -182,7 +183,9 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
 void presetsPanel(const EditorView& view, PresetsPanelState& state, Commands& commands) {
     beginGrey(!view.planet, "Open a planet first.");
     if (button("Copy as command line",
-               "Copies a worldy shot command that draws this view with these settings (Ctrl+Shift+C)."))
+               withKey("Copies a worldy shot command that draws this view with these settings.",
+                       "copy_command_line")
+                   .c_str()))
         commands.push_back(CopyCommandLine{});
     endGrey();
     sameLineForButton("Reset all settings");

@@ -19,6 +19,7 @@
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
 #include "ui/model/history.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -60,8 +61,9 @@ void cullingControls(const EditorView& view, const SettingControls& control, pla
     control.beside(lod.horizonCulling);
     bool frozen = view.camera.lodFrozen;
     if (frozen) ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
-    if (ImGui::Checkbox("Freeze (F2)", &frozen)) commands.push_back(FreezeLod{frozen});
-    noteItem("Freeze (F2)");
+    if (ImGui::Checkbox((withKey("Freeze", "freeze_lod") + "###freeze").c_str(), &frozen))
+        commands.push_back(FreezeLod{frozen});
+    noteItem("Freeze");
     if (view.camera.lodFrozen) ImGui::PopStyleColor();
     tooltip(
         "Keeps the current selection while the camera moves, to inspect it from outside. No other chunks are "
