@@ -42,6 +42,8 @@ Editor::Editor(const Settings& settings, const Log& log)
     settings_.settings = settings;
     camera_.bookmarks = loadBookmarks(bookmarksFile());
     if (!camera_.bookmarks.problem.empty()) log->warn("{}", camera_.bookmarks.problem);
+    for (const NamedLayout& layout : settings_.layouts.layouts())
+        if (!layout.workspace) log->error("{}", layout.workspace.error().message);
     camera_.flights = availableFlights();
     recording_ = openRecordings(recordingsFolder());
 }

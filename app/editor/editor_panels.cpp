@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "app/base/text.h"
@@ -81,23 +82,33 @@ void emptyViewport(const Session& session, const ui::EditorView& view, const ui:
     if (asked.bakeAgain) commands.push_back(ui::BakeAgain{});
 }
 
+// Returns true if the command moves the camera to something that the user wants to see.
+bool leadsToAPlace(const ui::Command& command) {
+    return command.as<ui::MoveCamera>() || command.as<ui::InspectPlace>() || command.as<ui::LookAtChunk>() ||
+           command.as<ui::GoBackToPop>() || command.as<ui::LookAsTrace>();
+}
+
 }  // namespace
 
 void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands) {
     const ui::EditorView& view = context.view;
-    const ui::Rect& middle = context.layout.viewport;
+    const ui::Rect& middle = context.layout.viewportCovered ? context.layout.area : context.layout.viewport;
     Workspace& workspace = context.settings.workspace;
     ViewSettings& settings = context.settings.view;
     ui::menuBar(view, window.menu, workspace, settings, commands);
-    if (view.planet)
+    if (context.layout.viewportCovered)
+        context.viewport.main.pointer = context.viewport.observer.pointer = {};
+    else if (view.planet)
         viewportWindows(view, settings, context.viewport, commands);
     else
         emptyViewport(context.session, view, middle, context.viewport, commands);
-    for (const Dock dock : {Dock::Left, Dock::Right, Dock::Bottom}) {
-        ui::drawDock(dock, context.layout, view, window.panels, workspace, settings, commands);
-    }
+    ui::drawDocks(context.layout, view, window.panels, window.docks, workspace, settings, commands);
+    // A maximised dock would hide the place.
+    if (std::any_of(commands.begin(), commands.end(), leadsToAPlace))
+        workspace.maximised = MaximisedDock::None;
     ui::statusBar(view, settings, context.layout.statusBar);
     ui::helpWindows(window.menu);
+    ui::layoutWindows(view, window.menu.layout, commands);
     ui::confirmationLine(context.notices.confirmation, context.notices.timeS, middle);
     ui::openDialog(context.openDialog, commands);
     ui::messageBox(context.notices.message, commands);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "ui/shell/text_scale.h"
+
 namespace worldy {
 
 namespace {
@@ -32,7 +34,7 @@ void ask(const Targets& targets, ui::Command command) {
 }
 
 void zoomText(const Targets& targets, double factor) {
-    targets.workspace.scale = std::clamp(targets.workspace.scale * factor, 0.5, 3.0);
+    ui::zoomText(factor, targets.workspace);
 }
 
 // Hides all panels, or shows the default panels if none is shown.
@@ -43,13 +45,16 @@ void toggleAllPanels(const Targets& targets) {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i].shown = !anyShown && first[i].shown;
 }
 
-// Closes the topmost popup or dialog; if none is open, clears the selection.
+// Closes the topmost popup or dialog; if none is open, restores a maximised dock; otherwise clears the selection.
 void leave(const Targets& targets) {
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;  // Esc only cancels the drag
     const bool popupOpen = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     if (popupOpen)
         ImGui::ClosePopupsOverWindow(nullptr, true);
     else if (targets.menu.showAbout || targets.menu.showKeys)
         (targets.menu.showAbout ? targets.menu.showAbout : targets.menu.showKeys) = false;
+    else if (ui::maximisedDock(targets.workspace))
+        targets.workspace.maximised = MaximisedDock::None;
     else
         ask(targets, ui::SelectChunk{});
 }
@@ -90,6 +95,7 @@ constexpr std::array shortcuts = {
     Shortcut{GLFW_KEY_KP_ADD, ctrl, [](const Targets& t) { zoomText(t, 1.1); }},
     Shortcut{GLFW_KEY_MINUS, ctrl, [](const Targets& t) { zoomText(t, 1 / 1.1); }},
     Shortcut{GLFW_KEY_KP_SUBTRACT, ctrl, [](const Targets& t) { zoomText(t, 1 / 1.1); }},
+    Shortcut{GLFW_KEY_L, ctrl | shift, [](const Targets& t) { ask(t, ui::NextLayout{}); }},
     Shortcut{GLFW_KEY_Q, ctrl, [](const Targets& t) { ask(t, ui::Quit{}); }},
     Shortcut{GLFW_KEY_ESCAPE, noModifier, leave},
 };
@@ -99,14 +105,7 @@ void togglePanel(const KeyPress& press, bool shifted, const Targets& targets) {
     for (const PanelInfo& info : panelInfos) {
         const std::string_view shortcut = info.shortcut;
         if (press.key != shortcut.back() || shifted != shortcut.starts_with("Ctrl+Shift+")) continue;
-        bool& shown = targets.workspace.panels[static_cast<std::size_t>(info.id)].shown;
-        const Dock dock = targets.workspace.panels[static_cast<std::size_t>(info.id)].dock;
-        const bool inFront = targets.workspace.inFront[static_cast<std::size_t>(dock)] == info.id;
-        // A panel behind another tab comes to the front instead of being hidden.
-        if (shown && inFront)
-            shown = false;
-        else
-            ui::showPanel(info.id, targets.workspace);
+        ui::togglePanel(info.id, targets.workspace);
     }
 }
 

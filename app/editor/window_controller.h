@@ -21,6 +21,7 @@ namespace worldy {
 
 struct WindowController {
     ui::PanelStates panels;
+    ui::DocksState docks;
     ui::MenuState menu;
     std::deque<LogLine> logLines;
     std::optional<ui::TakeScreenshot> screenshotPending;  // kept until a frame is drawn with its settings

@@ -565,6 +565,19 @@ void addPanels(Fields& fields, Workspace& workspace) {
             {"panels", panelInfos[i].key, texts.label, texts.help, Choice{asByte(place.dock), dockNames}});
         fields.push_back({"panels", texts.shownKey, texts.shownLabel, texts.shownHelp, Flag{&place.shown}});
     }
+    fields.push_back({"panels", "maximised", "Maximised dock",
+                      "Dock that fills the window between the menu bar and the status bar.",
+                      Choice{asByte(workspace.maximised), maximisedDockNames}});
+    fields.push_back(
+        {"panels", "order", "Order of the tabs",
+         "Order of the tabs in all docks, as keys of panels. Panels that are not listed follow in "
+         "their default order.",
+         TabOrder{&workspace.order}});
+    fields.push_back(
+        {"panels", "floating", "Floating panels",
+         "Panels in windows of their own. x and y are shares of the free room: 0 is the left or "
+         "the top, 1 the right or the bottom. Width and height are in units that follow the font.",
+         FloatingPanels{&workspace.panels}});
 }
 
 void addCracks(Fields& fields, CrackSettings& cracks) {
@@ -616,7 +629,7 @@ void addViewSettings(Fields& fields, ViewSettings& view) {
 }
 
 // The size of the largest list, so that it is allocated once.
-constexpr std::size_t fieldCount = 114 + 2 * panelCount + dockCount;
+constexpr std::size_t fieldCount = 117 + 2 * panelCount + dockCount;
 
 }  // namespace
 
@@ -677,6 +690,12 @@ bool isViewTable(std::string_view table) {
     return table != "data" && table != "camera" && table != "window" && table != "panels";
 }
 
+bool isLayoutField(const Field& field) {
+    if (field.table == "panels") return true;
+    return field.table == "window" &&
+           (field.key == "left_width" || field.key == "right_width" || field.key == "bottom_height");
+}
+
 const Field* findField(std::span<const Field> fields, std::string_view name) {
     const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
         const std::size_t dot = field.table.size();
@@ -705,7 +724,17 @@ std::string choiceLabel(const Choice& choice, std::size_t index) {
 void copyValue(const Field& from, const Field& to) {
     std::visit(
         [&](const auto& target) {
-            *target.value = *std::get<std::decay_t<decltype(target)>>(from.value).value;
+            using Kind = std::decay_t<decltype(target)>;
+            const auto& source = *std::get<Kind>(from.value).value;
+            if constexpr (std::is_same_v<Kind, FloatingPanels>) {
+                // The docks in the same array are settings of their own.
+                for (std::size_t i = 0; i < panelCount; ++i) {
+                    (*target.value)[i].floats = source[i].floats;
+                    (*target.value)[i].floating = source[i].floating;
+                }
+            } else {
+                *target.value = source;
+            }
         },
         to.value);
 }

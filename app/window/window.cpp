@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "app/base/stopwatch.h"
 #include "app/window/input_queue.h"
 #include "ui/kit/theme.h"
+#include "ui/shell/text_scale.h"
 
 namespace worldy {
 
@@ -75,6 +77,16 @@ struct Window::Glfw {
     GLFWwindow* besides = nullptr;  // never shown; its context shares the window's objects
     InputQueue input;
     std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in this frame
+    std::array<double, GLFW_MOUSE_BUTTON_LAST + 1> pressedAtS = neverPressed();
+    std::optional<std::size_t> pressedTwice;  // the button of a double click in this frame
+
+    static constexpr std::array<double, GLFW_MOUSE_BUTTON_LAST + 1> neverPressed() {
+        std::array<double, GLFW_MOUSE_BUTTON_LAST + 1> times{};
+        times.fill(-1e9);
+        return times;
+    }
+    // Notes a press. Two presses in short succession are a double click, however long the frames between them take.
+    void notePress(std::size_t button, double atS);
     std::vector<KeyPress> pressedKeys;
     std::vector<std::filesystem::path> droppedFiles;
 
@@ -113,7 +125,7 @@ void Window::Glfw::listen() {
         glm::dvec2 pointer{0, 0};
         glfwGetCursorPos(handle, &pointer.x, &pointer.y);
         const InputKind kind = action == GLFW_PRESS ? InputKind::ButtonDown : InputKind::ButtonUp;
-        of(handle).input.add({kind, button, 0, modifiers, pointer});
+        of(handle).input.add({kind, button, 0, modifiers, pointer, glfwGetTime()});
     });
     glfwSetCharCallback(window, [](GLFWwindow* handle, unsigned int letter) {
         of(handle).input.add({InputKind::Text, static_cast<int>(letter)});
@@ -127,7 +139,15 @@ void Window::Glfw::listen() {
     glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
 }
 
+void Window::Glfw::notePress(std::size_t button, double atS) {
+    const double since = atS - std::exchange(pressedAtS.at(button), atS);
+    if (since > static_cast<double>(ImGui::GetIO().MouseDoubleClickTime)) return;
+    pressedTwice = button;
+    pressedAtS.at(button) = -1e9;  // a third press is no second double click
+}
+
 std::optional<glm::dvec2> Window::Glfw::giveInput() {
+    pressedTwice.reset();
     std::optional<glm::dvec2> pointer;
     // The field may have lost focus in the last frame, which WantTextInput reports one frame late.
     const bool textFieldIsEdited = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
@@ -139,6 +159,8 @@ std::optional<glm::dvec2> Window::Glfw::giveInput() {
             case InputKind::ButtonDown:
             case InputKind::ButtonUp:
                 pointer = event.pointer;
+                if (event.kind == InputKind::ButtonDown)
+                    notePress(static_cast<std::size_t>(event.code), event.atS);
                 buttonsDown.at(static_cast<std::size_t>(event.code)) = event.kind == InputKind::ButtonDown;
                 break;
             case InputKind::KeyDown:
@@ -202,6 +224,8 @@ void Window::startImGui(const WindowConfig& config) {
     imguiStarted_ = true;
     imguiFile_ = config.imguiFile.string();
     ImGui::GetIO().IniFilename = imguiFile_.c_str();
+    // Dragging in a plot of a floating panel must not move the panel.
+    ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
     // Otherwise ImGui frees tables of hidden panels, which come back a frame too narrow.
     ImGui::GetIO().ConfigMemoryCompactTimer = -1;
     ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
@@ -212,7 +236,13 @@ void Window::startImGui(const WindowConfig& config) {
 }
 
 void Window::setTheme(Theme theme, double scale) {
-    const float wanted = contentScale() * static_cast<float>(scale);
+    const float monitor = contentScale();
+    const double fitting = ui::fittingScale(scale, width(), height(), ui::baseFontPx * monitor);
+    ui::setShownTextScale(fitting);
+    // Fonts come in whole pixels. Other sizes in between would load it again all the time while a window is resized.
+    const float wanted =
+        fitting < scale ? std::floor(ui::baseFontPx * monitor * static_cast<float>(fitting)) / ui::baseFontPx
+                        : monitor * static_cast<float>(scale);
     if (theme == theme_ && wanted == appliedScale_) return;
     const bool first = appliedScale_ == 0;  // the first frame creates the font's texture itself
     theme_ = theme;
@@ -263,6 +293,9 @@ void Window::beginFrame(double waitS) const {
     ImGuiIO& io = ImGui::GetIO();
     std::copy_n(glfw_->buttonsDown.begin(), std::size(io.MouseDown), std::begin(io.MouseDown));
     if (pointer) io.MousePos = {static_cast<float>(pointer->x), static_cast<float>(pointer->y)};
+    // ImGui measures the time between two presses in frames, of which a slow one would part them.
+    if (const auto twice = glfw_->pressedTwice; twice && *twice < std::size(io.MouseClickedTime))
+        io.MouseClickedTime[*twice] = ImGui::GetTime() + static_cast<double>(io.DeltaTime);
     ImGui::NewFrame();
 }
 

@@ -73,6 +73,8 @@ struct Draw {
     bool operator()(const Text&) const { return noControl(); }
     bool operator()(const Ramp&) const { return noControl(); }
     bool operator()(const LayerStack&) const { return noControl(); }
+    bool operator()(const TabOrder&) const { return noControl(); }
+    bool operator()(const FloatingPanels&) const { return noControl(); }
     static bool noControl() {
         assert(false);
         return false;

@@ -106,6 +106,14 @@ void tooltip(Tip tip) {
     ImGui::PopStyleVar();
 }
 
+void lateTooltip(const char* text) {
+    constexpr float restS = 1.2f;
+    float& restedS = *ImGui::GetStateStorage()->GetFloatRef(ImHashStr("rested", 0, ImGui::GetItemID()), 0);
+    const bool rests = ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown();
+    restedS = rests ? restedS + ImGui::GetIO().DeltaTime : 0;
+    if (restedS > restS) tooltip(text);
+}
+
 void beginGrey(bool grey, const char* why) {
     ImGui::BeginDisabled(grey);
     greyReasons.emplace_back(grey ? why : "");

@@ -38,6 +38,9 @@ private:
 
 // Shows the text while the last item is hovered.
 void tooltip(Tip tip);
+// Shows the text when the pointer has rested on the last item for a while with no button down. For items whose use is
+// mostly known, such as tabs.
+void lateTooltip(const char* text);
 
 // If grey, greys and disables the items until endGrey(). Their tooltips then begin with why, a sentence.
 // Calls may be nested: the outermost that greys shows its reason.

@@ -138,7 +138,21 @@ struct LoadPreset {
 struct DeletePreset {
     std::string name;
 };
-using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset>;
+struct SaveLayout {  // of the panels
+    std::string name;
+    bool replaces = false;  // false: an existing layout is kept, and an error is shown
+};
+struct LoadLayout {
+    std::string name;
+};
+struct DeleteLayout {
+    std::string name;
+};
+struct NextLayout {};     // the default, the saved ones, and the panels before the last change of layout
+struct ResetLayout {};    // to the default
+struct RestoreLayout {};  // to the panels before the last change of layout, if they were not saved
+using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset, SaveLayout, LoadLayout,
+                                     DeleteLayout, NextLayout, ResetLayout, RestoreLayout>;
 
 // The window.
 struct CopyCommandLine {};

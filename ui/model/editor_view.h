@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/base/log_lines.h"
+#include "app/data/layout_library.h"
 #include "app/data/worlds.h"
 #include "app/scene/frame_stats.h"
 #include "app/scene/overlay_lines.h"
@@ -127,6 +128,8 @@ struct SettingsView {
     std::span<const PresetView> presets{};
     std::string undoName{};  // "Tolerance τ 2 -> 3 px"; empty: nothing to undo
     std::string redoName{};
+    std::span<const NamedLayout> layouts{};  // of the window
+    bool hasUnsavedLayout = false;           // for RestoreLayout
 };
 
 // Finished and running measurements of the planet.

@@ -13,6 +13,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/shell/text_scale.h"
 
 namespace worldy::ui {
 
@@ -103,26 +104,26 @@ void panelItems(Workspace& workspace) {
     }
 }
 
-void viewMenu(Workspace& workspace) {
+void viewMenu(const EditorView& view, LayoutMenuState& layout, Workspace& workspace, Commands& commands) {
     if (!beginMenu("View")) return;
     panelItems(workspace);
     ImGui::Separator();
+    if (beginMenu("Layout")) {
+        layoutItems(view, layout, workspace, commands);
+        ImGui::EndMenu();
+    }
     if (beginMenu("Theme")) {
         if (menuItem("Dark theme", nullptr, workspace.theme == Theme::Dark)) workspace.theme = Theme::Dark;
         if (menuItem("Light theme", nullptr, workspace.theme == Theme::Light)) workspace.theme = Theme::Light;
         ImGui::EndMenu();
     }
-    if (menuItem("Larger text", "Ctrl++")) workspace.scale = std::min(workspace.scale * 1.1, 3.0);
-    if (menuItem("Smaller text", "Ctrl+-")) workspace.scale = std::max(workspace.scale / 1.1, 0.5);
+    if (menuItem("Larger text", "Ctrl++", false,
+                 greyUnless(!isTextLimited(workspace), "The window is too small for larger text.")))
+        zoomText(1.1, workspace);
+    if (menuItem("Smaller text", "Ctrl+-")) zoomText(1 / 1.1, workspace);
     if (menuItem("Match monitor scale", nullptr, false,
                  greyUnless(workspace.scale != 1, "The text already matches the monitor scale.")))
         workspace.scale = 1;
-    ImGui::Separator();
-    if (menuItem("Reset layout")) {
-        const Theme theme = workspace.theme;
-        workspace = {};
-        workspace.theme = theme;
-    }
     ImGui::EndMenu();
 }
 
@@ -193,7 +194,10 @@ constexpr std::array keyHelp = {
     KeyHelp{"Ctrl+click on a slider", "type a number"},
     KeyHelp{"Right click on a setting", "reset to its default"},
     KeyHelp{"Double click on a chunk's name", "look at the chunk"},
-    KeyHelp{"Esc", "close a menu or window, or clear selection"},
+    KeyHelp{"Ctrl+Shift+L", "next layout of the panels"},
+    KeyHelp{"Double click on a tab", "maximise its dock, or restore it"},
+    KeyHelp{"Drag a tab", "move the panel; Ctrl: let it float"},
+    KeyHelp{"Esc", "close a menu or window, restore a maximised dock, or clear selection"},
     KeyHelp{"Ctrl+Q", "quit"},
 };
 
@@ -257,7 +261,7 @@ void menuBar(const EditorView& view, MenuState& state, Workspace& workspace, Vie
     if (!ImGui::BeginMainMenuBar()) return;
     fileMenu(view, workspace, commands);
     editMenu(view, settings, commands);
-    viewMenu(workspace);
+    viewMenu(view, state.layout, workspace, commands);
     cameraMenu(view, settings, commands);
     helpMenu(state);
     ImGui::EndMainMenuBar();

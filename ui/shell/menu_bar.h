@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ui/shell/docks.h"
+#include "ui/shell/layout_menu.h"
 
 namespace worldy::ui {
 
@@ -13,6 +14,7 @@ float menuBarHeight();
 struct MenuState {
     bool showKeys = false;  // the window of keys and mouse
     bool showAbout = false;
+    LayoutMenuState layout{};
 };
 
 void menuBar(const EditorView& view, MenuState& state, Workspace& workspace, ViewSettings& settings,

@@ -39,7 +39,7 @@ TEST(Shortcuts, escClosesTheHelpWindowsOneByOneAndThenSelectsNothing) {
         .frames = {.stats = stats, .history = history}, .log = log, .instruments = {.changes = changes}};
     ViewSettings settings;
     Workspace workspace;
-    ui::MenuState menu{true, true};
+    ui::MenuState menu{true, true, {}};
     ui::Commands commands;
     const KeyPress escape{256, 0};
     const auto press = [&] {

@@ -10,7 +10,7 @@ namespace {
 TEST(MenuBar, theKeysWindowStaysWithinASmallScreen) {
     PanelWindow window{{1024, 640}};
     ImGui::GetIO().FontGlobalScale = 1.5f;
-    MenuState state{true, false};
+    MenuState state{true, false, {}};
     for (int frames = 0; frames < 4; ++frames) window.frame([&] { helpWindows(state); });
     const ItemPlace* keys = window.find("help/Keys and mouse");
     ASSERT_TRUE(keys);
