@@ -75,10 +75,15 @@ void legend(std::span<const Series> series, const char* unit, bool withValues) {
         if (i > 0 && ImGui::GetItemRectMax().x + gap + width < right) ImGui::SameLine(0, gap);
         swatch(series[i].colour);
         ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
+        ImGui::PushTextWrapPos(0);
         ImGui::TextUnformatted(series[i].name);
+        ImGui::PopTextWrapPos();
         ImGui::PopStyleColor();
         if (newest.empty()) continue;
-        ImGui::SameLine(0, ImGui::GetFontSize() * 0.3f);
+        // In a narrow dock the value stands below its name.
+        const float space = ImGui::GetFontSize() * 0.3f;
+        if (ImGui::GetItemRectMax().x + space + ImGui::CalcTextSize(newest.c_str()).x <= right)
+            ImGui::SameLine(0, space);
         ImGui::TextUnformatted(newest.c_str());
     }
 }

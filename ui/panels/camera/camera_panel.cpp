@@ -162,8 +162,7 @@ void followedFlight(const FlightView& flight, Commands& commands) {
 void flightsSection(const EditorView& view, const ViewSettings& settings, Commands& commands) {
     if (!section("Flights")) return;
     if (view.camera.flights.empty())
-        ImGui::TextColored(palette().dim,
-                           "No flights found. Flights are TOML files in a folder \"flights\".");
+        wrappedText("No flights found. Flights are TOML files in a folder \"flights\".", palette().dim);
     for (const std::filesystem::path& file : view.camera.flights) {
         const bool followed = view.camera.flight && settings.camera.flight == file.string();
         if (ImGui::Selectable(flightName(file).c_str(), followed)) commands.push_back(StartFlight{file});

@@ -194,7 +194,7 @@ void drawingRows(const EditorView& view, const ChunkExplanation& explanation, co
 
 void parents(const ChunkId& id, Commands& commands) {
     if (id.level == 0) {
-        ImGui::TextDisabled("None: this chunk is a whole face.");
+        wrappedText("None: this chunk is a whole face.", palette().dim);
         return;
     }
     const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
@@ -312,7 +312,7 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
     const float high = std::max(*high1, *high2);
     ImGui::BeginGroup();
     ImGui::TextColored(across.colour, "west to east");
-    ImGui::SameLine();
+    sameLineIfRoom(ImGui::CalcTextSize("south to north").x);
     ImGui::TextColored(up.colour, "south to north");
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float pad = ImGui::GetFontSize() * 0.3f;

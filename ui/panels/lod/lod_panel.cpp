@@ -122,8 +122,7 @@ void chunkSizeControl(const EditorView& view, Commands& commands) {
 
 void formulas(const EditorView& view, double tauPx) {
     const double screenScale = planet::screenScalePx(view.camera.lodView);
-    const std::string formula = inFont("ε = δc K' / D     d_m = δc K");
-    ImGui::TextDisabled("%s", formula.c_str());
+    wrappedText("ε = δc K' / D     d_m = δc K", palette().dim);
     tooltip(
         "Screen-space error in pixels of a chunk at the distance D in metres, and the switch distance d_m in "
         "metres: a nearer chunk must be split. δc, in metres, is the chunk's geometric error from the bake.");

@@ -258,23 +258,34 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
     if (wrong) ImGui::PopStyleColor();
 }
 
+constexpr const char* widestError = "0.000123";  // as finePx() writes it
+
 constexpr std::array worstColumns = {
     TableColumn{"Chunk", 1.9f, "Click to select the chunk; double-click to look at it."},
     TableColumn{"##go", 0.1f, nullptr, "Go xx"},
-    TableColumn{"Measured", 1.1f, terms::measuredPx.meaning},
-    TableColumn{"Bound", 0.9f, terms::drawnBoundPx.meaning},
+    TableColumn{"Measured", 1.1f, terms::measuredPx.meaning, widestError},
+    TableColumn{"Bound", 0.9f, terms::drawnBoundPx.meaning, widestError},
     TableColumn{"Slack", 0.8f, "1 - measured / bound."},
     TableColumn{"Screen space", 1.3f,
-                "Measured error in the projected picture, in pixels; 0 if no sample lies in it."},
+                "Measured error in the projected picture, in pixels; 0 if no sample lies in it.",
+                widestError},
     TableColumn{
         "Error", 0.9f,
-        "Distance in metres between the sample and the drawn surface, where the measured error is largest."},
-    TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk."}};
+        "Distance in metres between the sample and the drawn surface, where the measured error is largest.",
+        "123.4 km"},
+    TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk.",
+                widestError}};
+
+// widestChunk: must outlive the columns.
+auto worstColumnsFor(const std::string& widestChunk) {
+    std::array columns = worstColumns;
+    columns[0].widest = widestChunk.c_str();
+    return columns;
+}
 
 void worstList(const EditorView& view, Commands& commands) {
     const std::string widest = widestChunkName(view);
-    std::array columns = worstColumns;
-    columns[0].widest = widest.c_str();
+    const std::array columns = worstColumnsFor(widest);
     if (!beginWideTable("worst", columns, 1)) return;
     const ErrorMeasurement& last = *view.instruments.errors.last;
     const auto chunkOf = [&](std::size_t row) -> const ChunkError& {
@@ -316,14 +327,23 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
                               : "Press Measure to compare the drawn surface with the finest data.");
     }
     constexpr float tableLines = 12;
+    const float font = ImGui::GetFontSize();
+    const std::string widest = widestChunkName(view);
     const std::array columns = {
-        Column{"Measured", 1, 0,
-               [&] {
-                   measuredWhen(view, *view.instruments.errors.last);
-                   figures(*view.instruments.errors.last);
-               }},
-        Column{"Measured against drawn bound", 1, 0, [&] { scatter(view, state, commands); }},
-        Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, commands); }}};
+        Column{.title = "Measured",
+               .draw =
+                   [&] {
+                       measuredWhen(view, *view.instruments.errors.last);
+                       figures(*view.instruments.errors.last);
+                   },
+               .wanted = 18 * font},
+        Column{
+            .title = "Error and bound", .draw = [&] { scatter(view, state, commands); }, .wanted = 15 * font},
+        Column{.title = "Chunks",
+               .share = 1.6f,
+               .stackedLines = tableLines,
+               .draw = [&] { worstList(view, commands); },
+               .wanted = listTableWidth(worstColumnsFor(widest))}};
     drawColumns("errors", columns);
 }
 

@@ -244,18 +244,23 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
     if (!planet::counts(event)) ImGui::PopStyleColor();
 }
 
+// widestChunk: must outlive the columns.
+std::array<TableColumn, 8> eventColumns(const std::string& widestChunk) {
+    return {TableColumn{"Ago", 0.8f, nullptr, "123 s"},
+            TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
+            TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
+            TableColumn{"Levels", 0.9f, nullptr, "10 > 11"},
+            TableColumn{"Chunk", 1.6f, nullptr, widestChunk.c_str()},
+            TableColumn{"Note", 1.3f, nullptr, "outside picture"},
+            TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
+            TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
+}
+
 void worstFirst(const EditorView& view, PopsPanelState& state) {
     const auto& events = view.instruments.pops.meter->events();
     if (events.empty()) return emptyState("No level changes recorded.");
     const std::string chunk = widestChunkName(view);
-    const std::array columns = {TableColumn{"Ago", 0.8f, nullptr, "123 s"},
-                                TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
-                                TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
-                                TableColumn{"Levels", 0.9f, nullptr, "10 > 11"},
-                                TableColumn{"Chunk", 1.6f, nullptr, chunk.c_str()},
-                                TableColumn{"Note", 1.3f, nullptr, "outside picture"},
-                                TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
-                                TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
+    const std::array columns = eventColumns(chunk);
     if (!beginWideTable("worst", columns)) return;
     std::vector<std::size_t> order(events.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -301,13 +306,24 @@ void popsPanel(const EditorView& view, PopsPanelState& state, Commands& commands
     const bool wide = hasWideRoom();
     const auto rows =
         static_cast<float>(std::clamp<std::size_t>(view.instruments.pops.meter->events().size() + 2, 3, 14));
-    const std::array columns = {Column{"Jumps", 1, 0,
-                                       [&] {
-                                           jumps(view, state, commands);
-                                           totals(view, state);
-                                       }},
-                                Column{"Timeline", 1.5f, 0, [&] { timeline(view, state, wide, commands); }},
-                                Column{"Level changes", 1.6f, rows, [&] { worstFirst(view, state); }}};
+    const float font = ImGui::GetFontSize();
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {Column{.title = "Jumps",
+                                       .draw =
+                                           [&] {
+                                               jumps(view, state, commands);
+                                               totals(view, state);
+                                           },
+                                       .wanted = 16 * font},
+                                Column{.title = "Timeline",
+                                       .share = 1.5f,
+                                       .draw = [&] { timeline(view, state, wide, commands); },
+                                       .wanted = 18 * font},
+                                Column{.title = "Level changes",
+                                       .share = 1.6f,
+                                       .stackedLines = rows,
+                                       .draw = [&] { worstFirst(view, state); },
+                                       .wanted = listTableWidth(eventColumns(chunk))}};
     drawColumns("pops", columns);
 }
 

@@ -103,10 +103,14 @@ void probePanel(const EditorView& view, Commands& commands) {
         else
             ImGui::TextWrapped("Point at the ground in the viewport.");
     }
-    if (section("Source under the pointer"))
+    const bool isSourceOpen = section("Source");
+    tooltip("Shows what each layer of the source says about the ground under the pointer.");
+    if (isSourceOpen)
         sourceReadings("source", view.sources, view.sources.pointed, "Point at the ground in the viewport.",
                        commands);
-    if (!section("Selected chunk, max-error vertex")) return;
+    const bool isChunkOpen = section("Selected chunk");
+    tooltip("Shows the vertex of the selected chunk that has the largest error.");
+    if (!isChunkOpen) return;
     if (probe.selected)
         probed("selected", *probe.selected, view, commands);
     else

@@ -432,17 +432,33 @@ const char* emptyQueueText(const EditorView& view, const PagingPanelState& state
     return !waiting ? "The queue is empty: all requested blocks are resident." : "The queue is empty.";
 }
 
+// widestChunk: must outlive the columns.
+std::vector<TableColumn> queueColumns(const EditorView& view, const std::string& widestChunk) {
+    const std::array columns = {TableColumn{"Type", 0.6f, nullptr, "evict"},
+                                TableColumn{"Parent", 1.7f, nullptr, widestChunk.c_str()},
+                                TableColumn{"Priority", 0.9f, nullptr, "12.3 M"},
+                                TableColumn{"Age", 1.15f, nullptr, "59 min 59 s"},
+                                TableColumn{"Reason", 2.4f, nullptr, "unused for 59 min 59 s"}};
+    return withKind(view, columns, 1);
+}
+
+std::vector<TableColumn> historyColumns(const EditorView& view, const std::string& widestChunk) {
+    const std::array columns = {TableColumn{"Outcome", 1.1f, nullptr, "cancelled"},
+                                TableColumn{"Parent", 1.7f, nullptr, widestChunk.c_str()},
+                                TableColumn{"Waited", 1, nullptr, "99.9 ms"},
+                                TableColumn{"Reading", 1, nullptr, "99.9 ms"},
+                                TableColumn{"Size", 1, nullptr, "123 KiB"},
+                                TableColumn{"Requests", 0.7f},
+                                TableColumn{"Finished", 1.2f, nullptr, "59 min 59 s ago"}};
+    return withKind(view, columns, 1);
+}
+
 void queueTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
     queueFilter(view, state);
     const std::span<const PagingRow> queue = shownQueue(state);
     if (queue.empty()) return emptyState(emptyQueueText(view, state));
     const std::string chunk = widestChunkName(view);
-    const std::array columns = {
-        TableColumn{"Type", 0.6f, nullptr, "evict"}, TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
-        TableColumn{"Priority", 0.9f, nullptr, "12.3 M"}, TableColumn{"Age", 1.15f, nullptr, "59 min 59 s"},
-        TableColumn{"Reason", 2.4f, nullptr, "unused for 59 min 59 s"}};
-    const std::vector<TableColumn> shown = withKind(view, columns, 1);
-    if (!beginWideTable("queue", shown)) return;
+    if (!beginWideTable("queue", queueColumns(view, chunk))) return;
     const auto ageOf = [&](const PagingRow& row) {
         return std::max(view.planet->lastStep().nowS - row.askedAtS, 0.0);
     };
@@ -587,15 +603,7 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
     if (shown.empty())
         return emptyState(history.empty() ? "No request has finished yet." : "No requests of this kind.");
     const std::string chunk = widestChunkName(view);
-    const std::array columns = {TableColumn{"Outcome", 1.1f, nullptr, "cancelled"},
-                                TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
-                                TableColumn{"Waited", 1, nullptr, "99.9 ms"},
-                                TableColumn{"Reading", 1, nullptr, "99.9 ms"},
-                                TableColumn{"Size", 1, nullptr, "123 KiB"},
-                                TableColumn{"Requests", 0.7f},
-                                TableColumn{"Finished", 1.2f, nullptr, "59 min 59 s ago"}};
-    const std::vector<TableColumn> all = withKind(view, columns, 1);
-    if (!beginWideTable("history", all)) return;
+    if (!beginWideTable("history", historyColumns(view, chunk))) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::PagingEvent& event = *shown[row];
         const std::optional<std::size_t> plain = withoutKind(view, column, 1);
@@ -735,14 +743,28 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     refresh(view, state);
     const bool wide = hasWideRoom();
     constexpr float tableLines = 13;
-    const std::array columns = {Column{"Paging", 1.2f, 0,
-                                       [&] {
-                                           pagingControls(view, control, settings, commands);
-                                           if (wide && section("I/O fault injection"))
-                                               badDisk(control, settings.paging);
-                                       }},
-                                Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},
-                                Column{"Plots", 0.95f, 0, [&] { plots(view, state, wide); }}};
+    const float font = ImGui::GetFontSize();
+    const std::string chunk = widestChunkName(view);
+    const float widestTable =
+        std::max(listTableWidth(queueColumns(view, chunk)), listTableWidth(historyColumns(view, chunk)));
+    const std::array columns = {Column{.title = "Paging",
+                                       .share = 1.2f,
+                                       .draw =
+                                           [&] {
+                                               pagingControls(view, control, settings, commands);
+                                               if (wide && section("I/O fault injection"))
+                                                   badDisk(control, settings.paging);
+                                           },
+                                       .wanted = 17 * font},
+                                Column{.title = "Requests",
+                                       .share = 2,
+                                       .stackedLines = tableLines,
+                                       .draw = [&] { tables(view, state, commands); },
+                                       .wanted = widestTable},
+                                Column{.title = "Plots",
+                                       .share = 0.95f,
+                                       .draw = [&] { plots(view, state, wide); },
+                                       .wanted = 13 * font}};
     drawColumns("paging", columns);
     if (!wide && section("I/O fault injection")) badDisk(control, settings.paging);
 }
