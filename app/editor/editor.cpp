@@ -82,6 +82,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::collectItems(window_.itemMapFile.empty() ? nullptr : &items);
 
     ui::Commands commands;
+    ui::beginExports(window_.exports, commands);
     takeDrops(window, window_.panels.bake, bakes_.sources, commands);
     advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
@@ -106,11 +107,15 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     // A replay's settings are not the user's, so they are not recorded for undo.
     if (!replaying())
         settings_.undo.record(before, settings_.settings.view, ImGui::IsAnyItemActive(), frames_.timeS);
+    ui::endExports();
     execute(commands, window, session);
     stats.panelsMs = panelWatch.elapsedMs();
     ui::collectItems(nullptr);
 
-    window.endFrame([&] { keepScreenshot(window_, window, windowContent(session), notices_); });
+    window.endFrame([&] {
+        savePlots(window_, window, notices_);
+        keepScreenshot(window_, window, windowContent(session), notices_);
+    });
     stats.panelsGpuMs = window.panelsGpuMs();
     stats.presentMs = window.presentMs();
     stats.frameMs = 1000 * secondsSinceLast;

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
+#include "app/base/new_file.h"
+#include "app/base/places.h"
 #include "app/editor/overloaded.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
@@ -51,17 +54,61 @@ ScreenshotNote noteOf(const WindowContent& content) {
     return note;
 }
 
+// Says where a file was saved, or why it was not.
+void tellSaved(const Result<std::filesystem::path>& file, Notices& notices) {
+    if (!file) return tellError(notices, {"The file was not saved", file.error().message, ""});
+    confirm(
+        notices,
+        fmt::format("Saved: {} in {}", file->filename().string(), file->parent_path().filename().string()),
+        fmt::format("Saved: {}", file->string()));
+}
+
+void saveExport(const ui::SaveExport& save, Notices& notices) {
+    tellSaved(writeNewTextFile(picturesFolder(), ui::fileNamePart(save.name), save.extension, save.text),
+              notices);
+}
+
+Result<std::filesystem::path> savePlot(const ui::SavePlotPicture& plot, const Picture& whole,
+                                       float pixelRatio) {
+    const auto pixels = [&](float units) { return static_cast<int>(std::lround(units * pixelRatio)); };
+    const Picture picture = partOf(whole, pixels(plot.rect.x), pixels(plot.rect.y), pixels(plot.rect.width),
+                                   pixels(plot.rect.height));
+    if (picture.rgb.empty())
+        return planet::badInput("The plot is out of sight; scroll to it and save it again");
+    Result<std::filesystem::path> file =
+        newTimedFile(picturesFolder(), localTimeNow(), ui::fileNamePart(plot.name), "png");
+    if (!file) return file;
+    if (const Result<void> written = writePicture(picture, *file); !written) {
+        std::error_code status;
+        std::filesystem::remove(*file, status);  // otherwise an empty file would remain
+        return tl::unexpected(written.error());
+    }
+    return file;
+}
+
 }  // namespace
 
 void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
              const WindowContent& content, Notices& notices) {
     std::visit(Overloaded{
                    [&](const ui::CopyCommandLine&) { copyCommandLine(window, content, notices); },
-                   [&](const ui::CopyText& text) { window.setClipboard(text.text); },
+                   [&](const ui::CopyText& text) {
+                       window.setClipboard(text.text);
+                       if (!text.done.empty()) show(notices, text.done);
+                   },
+                   [&](const ui::SaveExport& save) { saveExport(save, notices); },
+                   [&](const ui::SavePlotPicture& plot) { controller.plotsPending.push_back(plot); },
                    [&](const ui::TakeScreenshot& screenshot) { controller.screenshotPending = screenshot; },
                    [&](const ui::Quit&) { window.close(); },
                },
                command);
+}
+
+void savePlots(WindowController& controller, const Window& window, Notices& notices) {
+    if (controller.plotsPending.empty()) return;
+    const Picture whole = window.readPicture();
+    for (const ui::SavePlotPicture& plot : std::exchange(controller.plotsPending, {}))
+        tellSaved(savePlot(plot, whole, window.pixelRatio()), notices);
 }
 
 void keepScreenshot(WindowController& controller, const Window& window, const WindowContent& content,

@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/base/log_lines.h"
 #include "app/editor/camera_controller.h"
@@ -13,6 +14,7 @@
 #include "app/editor/viewport.h"
 #include "app/settings/settings.h"
 #include "app/window/window.h"
+#include "ui/kit/exports.h"
 #include "ui/model/commands.h"
 #include "ui/shell/menu_bar.h"
 #include "ui/shell/panels.h"
@@ -25,6 +27,8 @@ struct WindowController {
     std::deque<LogLine> logLines;
     std::optional<ui::TakeScreenshot> screenshotPending;  // kept until a frame is drawn with its settings
     std::filesystem::path itemMapFile;                    // for the positions of controls; empty: not written
+    ui::ExportState exports{};                            // of tables and plots
+    std::vector<ui::SavePlotPicture> plotsPending{};      // in this frame
 };
 
 // The content of the window that a screenshot shows and its command line reproduces.
@@ -37,6 +41,10 @@ struct WindowContent {
 };
 void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
              const WindowContent& content, Notices& notices);
+
+// Writes the pictures of plots that were requested in this frame into new files. Call when the frame is drawn but not yet
+// presented.
+void savePlots(WindowController& controller, const Window& window, Notices& notices);
 
 // Writes the requested screenshot, if any, into a new file, with the settings that made it. Call when the
 // frame is drawn but not yet presented. Waits for a frame that is drawn as the settings require.

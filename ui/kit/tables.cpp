@@ -68,6 +68,7 @@ bool beginTable(const char* id, std::span<const TableColumn> columns, ImVec2 siz
     const float room = size.x > 0 ? size.x : ImGui::GetContentRegionAvail().x;
     const float width = std::max(room - ImGui::GetStyle().ScrollbarSize, tableWidth(columns));
     if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), listFlags, size, width)) return false;
+    detail::beginRows();
     const float frozen = tableWidth(columns.first(static_cast<std::size_t>(frozenColumns)));
     header(columns, width, frozen <= room / 2 ? frozenColumns : 0);
     return true;

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/model/font_symbols.h"
@@ -24,6 +26,12 @@ constexpr float valueShare = 0.65f;
 
 // The reason of each open beginGrey(); empty if it does not grey. Global like ImGui's own stack.
 std::vector<std::string> greyReasons;
+
+// The names and values of the open list. Global like ImGui's own state of the frame.
+struct {
+    std::string id;
+    std::vector<std::pair<std::string, std::string>> rows;
+} shownValues;
 
 // Call after the control. Returns true if the user asks for the default.
 bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
@@ -118,6 +126,9 @@ void endGrey() {
 
 bool beginValues(const char* id) {
     if (!ImGui::BeginTable(id, 2)) return false;
+    shownValues.id = id;
+    shownValues.rows.clear();
+    detail::beginRows();
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed);
     return true;
@@ -125,6 +136,7 @@ bool beginValues(const char* id) {
 
 void valueRow(const char* name, const std::string& value, const char* explanation, const ImVec4* colour) {
     ImGui::TableNextRow();
+    noteValue(name, value);
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
     ImGui::PushTextWrapPos(0);
@@ -146,8 +158,17 @@ void valueRow(const char* name, const std::string& value, const char* explanatio
     tooltip(explanation);
 }
 
+void noteValue(const char* name, const std::string& value) {
+    shownValues.rows.emplace_back(name, value);
+}
+
 void endValues() {
-    ImGui::EndTable();
+    ExportTable table{
+        .name = shownValues.id, .columns = {{"name"}, {"value"}}, .rows = shownValues.rows.size()};
+    table.cell = [](std::size_t row, std::size_t column) -> ExportCell {
+        return column == 0 ? shownValues.rows[row].first : shownValues.rows[row].second;
+    };
+    endTable(table);
 }
 
 void valueRows(const char* id, std::span<const ValueRow> rows) {

@@ -44,10 +44,12 @@ void tooltip(Tip tip);
 void beginGrey(bool grey, const char* why);
 void endGrey();
 
-// Begins two columns: names on the left, values right-aligned. Call valueRow() between begin and end.
+// Begins two columns: names on the left, values right-aligned. Call valueRow() between begin and end. The list can be
+// copied and saved with the texts as shown.
 bool beginValues(const char* id);
 void valueRow(const char* name, const std::string& value, const char* explanation,
               const ImVec4* colour = nullptr);
+void noteValue(const char* name, const std::string& value);  // of a row that the caller draws itself
 void endValues();
 struct ValueRow {
     std::string name;

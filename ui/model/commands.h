@@ -24,6 +24,7 @@
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/view.h"
+#include "ui/model/layout.h"
 #include "ui/model/replay_controls.h"
 
 namespace worldy::ui {
@@ -144,12 +145,23 @@ using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeleteP
 struct CopyCommandLine {};
 struct CopyText {
     std::string text;
+    std::string done{};  // what the viewport confirms; empty: nothing
+};
+struct SaveExport {         // what a table or a plot shows, into a new file beside the screenshots
+    std::string name;       // part of the file's name
+    std::string extension;  // "csv"
+    std::string text;
+};
+struct SavePlotPicture {  // a part of the window, from this frame, as PNG
+    std::string name;
+    Rect rect;  // in the window
 };
 struct TakeScreenshot {
     bool withPanels = false;
 };
 struct Quit {};
-using WindowCommand = std::variant<CopyCommandLine, CopyText, TakeScreenshot, Quit>;
+using WindowCommand =
+    std::variant<CopyCommandLine, CopyText, SaveExport, SavePlotPicture, TakeScreenshot, Quit>;
 
 // Texture layers.
 struct LoadLayerSet {

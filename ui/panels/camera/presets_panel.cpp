@@ -73,7 +73,12 @@ void presetList(const EditorView& view, PresetsPanelState& state, Commands& comm
     };
     tableRows(view.settings.presets.size(), key,
               [&](std::size_t row) { presetRow(view.settings.presets[row], state, commands); });
-    ImGui::EndTable();
+    endTable(exportTable<PresetView>(
+        "presets", view.settings.presets.size(), [&](std::size_t row) { return view.settings.presets[row]; },
+        {{"name", [](const PresetView& preset) { return preset.name; }, true},
+         {"changes", [](const PresetView& preset) { return preset.differences.size(); }},
+         {"origin", [](const PresetView& preset) { return preset.shipped ? "built-in" : "user"; }},
+         {"problem", [](const PresetView& preset) { return preset.problem; }}}));
 }
 
 // Returns why the name cannot be used, or null if it can. same: the preset that already has the name.
@@ -151,7 +156,12 @@ void differencesTable(const PresetView& preset) {
     tableRows(rows.size(), key, [&](std::size_t row) {
         for (const std::string& text : rows[row]) textCell(text);
     });
-    ImGui::EndTable();
+    using Difference = SettingDifference;
+    endTable(exportTable<Difference>("preset changes", rows.size(),
+                                     [&](std::size_t row) { return preset.differences[row]; },
+                                     {{"setting", [](const Difference& d) { return d.setting; }, true},
+                                      {"current", [](const Difference& d) { return d.here; }},
+                                      {"preset", [](const Difference& d) { return d.there; }}}));
 }
 
 void selectedSection(const EditorView& view, const PresetsPanelState& state, Commands& commands) {

@@ -74,17 +74,21 @@ void differencesTable(const CompareView& compare) {
     struct Row {
         std::array<std::string, 3> texts;
         std::array<const char*, 3> explanations{};
+        std::string setting;  // its name in the settings file
+        std::array<std::string, 2> values;
     };
     std::vector<Row> rows;
     if (compare.fileA != compare.fileB)
         rows.push_back({{"chunk file", compare.fileA.filename().string(), compare.fileB.filename().string()},
-                        {nullptr, compare.fileA.c_str(), compare.fileB.c_str()}});
+                        {nullptr, compare.fileA.c_str(), compare.fileB.c_str()},
+                        "file",
+                        {compare.fileA.string(), compare.fileB.string()}});
     // File names are left out of the column widths: they may have any length, and their tooltips show the
     // paths.
     std::array<std::vector<std::string>, 2> values;
     for (const SettingDifference& one : compare.different) {
         const auto [a, b] = shortNumberTexts(one.here, one.there);
-        rows.push_back({{inFont(one.label), a, b}});
+        rows.push_back({{inFont(one.label), a, b}, {}, one.setting, {one.here, one.there}});
         values[0].push_back(a);
         values[1].push_back(b);
     }
@@ -100,7 +104,10 @@ void differencesTable(const CompareView& compare) {
         for (std::size_t column = 0; column < columns.size(); ++column)
             comparedCell(rows[row].texts[column], rows[row].explanations[column]);
     });
-    ImGui::EndTable();
+    endTable(exportTable<Row>("compared settings", rows.size(), [&](std::size_t row) { return rows[row]; },
+                              {{"setting", [](const Row& row) { return row.setting; }, true},
+                               {"a", [](const Row& row) { return row.values[0]; }},
+                               {"b", [](const Row& row) { return row.values[1]; }}}));
 }
 
 void sides(const CompareView& compare, Commands& commands) {
@@ -175,7 +182,13 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
             tooltip(row.explanation);
         }
     });
-    ImGui::EndTable();
+    // The names are those of worldy compare --json.
+    const auto of = [&](std::size_t side) {
+        return [&figures, side](const CompareRow& row) { return figures[side].*row.value; };
+    };
+    endTable(exportTable<CompareRow>(
+        fmt::format("compare {}", id), rows.size(), [&](std::size_t row) { return rows[row]; },
+        {{"figure", [](const CompareRow& row) { return row.key; }, true}, {"a", of(0)}, {"b", of(1)}}));
 }
 
 void nowSection(const CompareView& compare, Commands& commands) {

@@ -188,7 +188,7 @@ void levelBars(const planet::Planet& planet) {
              {c.r, c.g, c.b, 1},
              fmt::format("{}   {} ground tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
     }
-    barList("levels", bars);
+    barList("drawn chunks by level", bars, "chunks");
     tooltip("Chunks drawn per level and their ground triangles. Level 0 is a whole cube face.");
 }
 
@@ -199,7 +199,7 @@ void drawnPlots(const EditorView& view, double tauPx) {
                historyValues(view.frames.history, [](const FrameStats& s) { return s.selection.drawn; })},
         Series{"visited", seriesColour(1),
                historyValues(view.frames.history, [](const FrameStats& s) { return s.selection.visited; })}};
-    linePlot("counts", times, counts, "");
+    linePlot("drawn and visited", times, counts, "");
     // A chunk that contains the eye has an unbounded error, so errors far above the tolerance are clamped.
     const auto top = static_cast<float>(16 * tauPx);
     const std::string name = fmt::format("max {} (clamped at 16 {})", epsSymbol(), tauSymbol());
@@ -207,7 +207,7 @@ void drawnPlots(const EditorView& view, double tauPx) {
         Series{name.c_str(), seriesColour(3), historyValues(view.frames.history, [top](const FrameStats& s) {
                    return std::min(s.selection.worstEpsPx, top);
                })}};
-    linePlot("errors", times, errors, "px", 0, 3, false, tauPx);
+    linePlot("max error", times, errors, "px", 0, 3, false, tauPx);
 }
 
 // Returns the chunks that thrashed last, newest first, each once.

@@ -11,6 +11,7 @@
 #include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/figure_rows.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/tables.h"
@@ -89,7 +90,8 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
     const std::array marks = {
         HistogramMark{logarithmicPosition(std::max(sample.p99Px, leastPopPx), leastPopPx, mostPopPx),
                       fmt::format("99 %: {}", popPxText(sample.p99Px))}};
-    histogram("jumps", sample.counts, fmt::format("{} px", leastPopPx), fmt::format("{} px", mostPopPx),
+    histogram("pop histogram", sample.counts, fmt::format("{} px", leastPopPx),
+              fmt::format("{} px", mostPopPx),
               sample.seen > 0 ? std::span<const HistogramMark>(marks) : std::span<const HistogramMark>(), 4,
               [](double position) { return popPxText(logarithmicValue(position, leastPopPx, mostPopPx)); });
     tooltip("Histogram of level changes by largest jump in pixels, on a logarithmic axis.");
@@ -97,49 +99,15 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
 
 void totals(const EditorView& view, const PopsPanelState& state) {
     const PopMeter& meter = *view.instruments.pops.meter;
-    const planet::PopTotals& t = meter.totals();
-    const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
-    if (!beginValues("totals")) return;
-    constexpr std::array<const char*, planet::popCauseCount> meanings = {
-        "The chunk's screen-space error crossed the tolerance because the camera moved.",
-        "A setting that affects LOD selection was changed: tolerance, hysteresis, metric, max LOD level, "
-        "culling, stitched seams, field of view, picture size or exaggeration. A level change that fades "
-        "keeps this cause.",
-        "The chunk was drawn too coarse until its children were loaded.",
-        "The chunk's children were evicted although they were needed: the memory budget is too small.",
-        "Stitched seams limit the level difference of neighbours, and a neighbour changed.",
-        "Stitched seams limit the level difference of neighbours, and a neighbour entered or left the view."};
+    if (!beginValues("pops")) return;
+    const Figures figures = popFigures(meter, state.sample.medianPx);
     for (std::size_t i = 0; i < planet::popCauseCount; ++i) {
-        const auto cause = static_cast<planet::PopCause>(i);
-        const ImVec4 colour = popColour(cause);
-        valueRow(planet::popCauseName(cause), count(t.byCause[i]), meanings[i],
-                 t.byCause[i] > 0 ? &colour : nullptr);
+        const ImVec4 colour = popColour(static_cast<planet::PopCause>(i));
+        const bool any = meter.totals().byCause[i] > 0;
+        valueRow(figures[i].name.c_str(), figures[i].value, figures[i].explanation.c_str(),
+                 any ? &colour : nullptr);
     }
-    valueRow("median jump", popPxText(state.sample.medianPx),
-             "Median of the level changes in the histogram, in pixels.");
-    valueRow("max jump", popPxText(t.worstPx),
-             "Largest jump of the level changes that count since the list was cleared, in pixels.");
-    valueRow("max adjacent jump", popPxText(t.worstBesidePx),
-             "Largest jump along an edge of an unchanged chunk adjacent to a level change, in pixels; the "
-             "edge follows its neighbour.");
-    valueRow(
-        "late now", count(meter.lateOpen()),
-        "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
-        meter.lateOpen() > 0 ? &palette().warning : nullptr);
-    valueRow("late, total", count(t.late), "Late chunks since the list was cleared.");
-    valueRow("not measured", count(t.notMeasured),
-             "Level changes in a frame in which the exaggeration changed too: all heights jump there, so no "
-             "jump is measured. They count only in the totals by cause.");
-    valueRow("outside picture", count(t.outsidePicture),
-             "Level changes outside the picture; they count only in the totals by cause.");
-    valueRow("under sea", count(t.underSea),
-             "Level changes of the sea bed under a sea that is drawn as water. They are not visible and "
-             "count only "
-             "in the totals by cause.");
-    valueRow(
-        "after jump", count(t.afterJump),
-        "Level changes caused by a camera jump or by the start of the measurement: the loads and fades that "
-        "were due then. They are listed last and count only in the totals by cause.");
+    figureRows(std::span(figures).subspan(planet::popCauseCount));
     endValues();
 }
 
@@ -289,7 +257,11 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
             eventRow(view, events[event], row, state);
         });
     }
-    ImGui::EndTable();
+    ExportTable table = exportTable<PopEvent>(
+        "pops", order.size(), [&](std::size_t row) -> const PopEvent& { return events[order[row]]; },
+        popFields());
+    if (!chosenSort()) table.sortAll = [&] { std::sort(order.begin(), order.end(), worse); };
+    endTable(table);
 }
 
 }  // namespace

@@ -87,7 +87,15 @@ void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>&
         }
     };
     tableRows(blocks.size(), key, [&](std::size_t row) { failedRow(view, blocks[row], commands); });
-    ImGui::EndTable();
+    using Failed = planet::FailedBlock;
+    endTable(exportTable<Failed>(
+        "failed blocks", blocks.size(), [&](std::size_t row) { return blocks[row]; },
+        {{"kind", [](const Failed& failed) { return kindText(failed.block.kind); }, true},
+         {"parent", [](const Failed& failed) { return planet::toString(failed.block.parent); }, true},
+         {"failed_permanently", [](const Failed& failed) { return !failed.retryInS.has_value(); }},
+         {"retry_in_s", [](const Failed& failed) { return failed.retryInS; }},
+         {"attempts", [](const Failed& failed) { return failed.attempts; }},
+         {"reason", [](const Failed& failed) { return failed.message; }}}));
 }
 
 }  // namespace worldy::ui

@@ -204,7 +204,16 @@ void totalsByKind(const FrameStats& stats) {
         cell(countCell(of.tiles));
         cell(countCell(of.budgetWaits), of.budgetWaits > 0 ? palette().warning : palette().text);
     });
-    ImGui::EndTable();
+    endTable(exportTable<KindTotals>("paging totals", kinds.size(),
+                                     [&](std::size_t row) { return kinds[row]; },
+                                     {{"kind", [](const KindTotals& k) { return k.kind; }, true},
+                                      {"loaded", [](const KindTotals& k) { return k.loaded; }},
+                                      {"evicted", [](const KindTotals& k) { return k.evicted; }},
+                                      {"failed", [](const KindTotals& k) { return k.failed; }},
+                                      {"bytes_read", [](const KindTotals& k) { return k.bytesRead; }},
+                                      {"resident", [](const KindTotals& k) { return k.resident; }},
+                                      {"tiles", [](const KindTotals& k) { return k.tiles; }},
+                                      {"over_budget", [](const KindTotals& k) { return k.budgetWaits; }}}));
 }
 
 void totals(const EditorView& view) {
@@ -472,7 +481,17 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
         cell(latencyText(ageS));
         cell(reason(*view.planet, row, state.shownView, ageS));
     });
-    ImGui::EndTable();
+    endTable(exportTable<PagingRow>(
+        "paging queue", queue.size(), [&](std::size_t row) { return queue[row]; },
+        {{"type",
+          [](const PagingRow& row) { return row.type == planet::PagingType::PageIn ? "load" : "evict"; },
+          true},
+         {"kind", [](const PagingRow& row) { return kindText(row.kind); }, true},
+         {"parent", [](const PagingRow& row) { return planet::toString(row.parent); }, true},
+         {"priority", [](const PagingRow& row) { return row.priority; }},
+         {"age_s", ageOf},
+         {"reason",
+          [&](const PagingRow& row) { return reason(*view.planet, row, state.shownView, ageOf(row)); }}}));
 }
 
 void loadingTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
@@ -510,7 +529,14 @@ void loadingTable(const EditorView& view, PagingPanelState& state, Commands& com
         cell(bytesText(loading[row].bytes));
         cell(latencyText(loading[row].seconds));
     });
-    ImGui::EndTable();
+    using Load = planet::LoadInProgress;
+    endTable(
+        exportTable<Load>("paging loading", loading.size(), [&](std::size_t row) { return loading[row]; },
+                          {{"kind", [](const Load& load) { return kindText(load.kind); }, true},
+                           {"parent", [](const Load& load) { return planet::toString(load.parent); }, true},
+                           {"priority", [](const Load& load) { return load.priority; }},
+                           {"size_bytes", [](const Load& load) { return load.bytes; }},
+                           {"elapsed_s", [](const Load& load) { return load.seconds; }}}));
 }
 
 struct OutcomeLook {
@@ -618,7 +644,20 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
         }
     };
     tableRows(shown.size(), key, [&](std::size_t row) { historyRow(view, *shown[row], commands); });
-    ImGui::EndTable();
+    using Event = planet::PagingEvent;
+    const auto wasRead = [](const Event& event) { return event.outcome == planet::PagingOutcome::Loaded; };
+    endTable(exportTable<Event>(
+        "paging history", shown.size(), [&](std::size_t row) { return *shown[row]; },
+        {{"outcome", [](const Event& event) { return lookOf(event.outcome).name; }},
+         {"kind", [](const Event& event) { return kindText(event.kind); }, true},
+         {"parent", [](const Event& event) { return planet::toString(event.parent); }, true},
+         {"waited_s", [](const Event& event) { return event.waitedS; }},
+         {"reading_s",
+          [=](const Event& event) { return wasRead(event) ? ExportCell(event.readS) : ExportCell(); }},
+         {"size_bytes",
+          [=](const Event& event) { return wasRead(event) ? ExportCell(event.bytes) : ExportCell(); }},
+         {"requests", [](const Event& event) { return event.timesAsked; }},
+         {"finished_at_s", [](const Event& event) { return event.atS; }, true}}));
 }
 
 // Plots.
@@ -652,7 +691,7 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
                historyValues(view.frames.history, [](const FrameStats& s) { return s.paging.queued; })},
         Series{"loading", seriesColour(1),
                historyValues(view.frames.history, [](const FrameStats& s) { return s.paging.loading; })}};
-    linePlot("queueLength", times, queue, "", 0, lines);
+    linePlot("queue length", times, queue, "", 0, lines);
     constexpr double windowS = 0.5;
     const auto read = historyValues<double>(view.frames.history, [](const FrameStats& s) {
         return static_cast<double>(s.paging.bytesRead()) / 1e6;
@@ -670,7 +709,7 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
         });
         rate.push_back({"normals", seriesColour(4), growthPerS(times, normals, windowS)});
     }
-    linePlot("bytesPerS", times, rate, "MB/s", 0, lines);
+    linePlot("read rate", times, rate, "MB/s", 0, lines);
     latencyHistogram(state, lines);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/base/text.h"
+#include "app/measure/sweep.h"
 #include "ui/kit/front_chart.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
@@ -70,13 +71,10 @@ constexpr std::array<SweepColumn, 11> sweepColumns = {{
 
 void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
               std::optional<std::size_t>& selected) {
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushID(static_cast<int>(index));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##row", selected == index, ImGuiSelectableFlags_SpanAllColumns)) selected = index;
     noteItem(fmt::format("Row {}", index));
-    ImGui::PopID();
     const float line = ImGui::GetTextLineHeight();
     frontMark({at.x + line * 0.5f, at.y + line * 0.5f}, colour, point.onFront);
     ImGui::SameLine(line * 1.2f);
@@ -87,6 +85,17 @@ void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
         ImGui::TextUnformatted(column.text(column.value(point)).c_str());
         ImGui::PopStyleColor();
     }
+}
+
+ExportTable sweepExport(const char* name, std::span<const SweepPoint> points) {
+    ExportTable table{.name = name, .rows = points.size()};
+    const std::span<const SweepFigure> figures = sweepFigures();
+    for (const SweepFigure& figure : figures) table.columns.push_back({figure.name});
+    table.cell = [=](std::size_t row, std::size_t column) -> ExportCell {
+        return std::visit([](const auto& value) { return ExportCell(value); },
+                          figures[column].of(points[row]));
+    };
+    return table;
 }
 
 }  // namespace
@@ -106,8 +115,8 @@ void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& 
         return sweepColumns[column].value(points[row]);
     };
     for (const std::size_t i : tableOrder(points.size(), chosenSort(), key))
-        pointRow(points[i], i, seriesColour(seriesIndex[i]), selected);
-    ImGui::EndTable();
+        tableRow(i, [&] { pointRow(points[i], i, seriesColour(seriesIndex[i]), selected); });
+    endTable(sweepExport("sweep", points));
 }
 
 }  // namespace worldy::ui

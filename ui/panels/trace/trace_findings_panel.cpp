@@ -108,7 +108,18 @@ void faults(const EditorView& view, TraceFindingsPanelState& state, Commands& co
         cell(traceNodeName(view, fault.node));
         cell(inFont(fault.sentence));
     });
-    ImGui::EndTable();
+    // The names are those of worldy trace --json.
+    using Fault = planet::TraceFault;
+    endTable(exportTable<Fault>(
+        "trace faults", rows.size(), [&](std::size_t row) { return *rows[row]; },
+        {{"kind", [](const Fault& fault) { return planet::traceFaultName(fault.kind); }, true},
+         {"first_frame", [](const Fault& fault) { return fault.firstFrame; }, true},
+         {"last_frame", [](const Fault& fault) { return fault.lastFrame; }},
+         {"frames", [](const Fault& fault) { return fault.frames; }},
+         {"node", [&](const Fault& fault) { return traceNodeName(view, fault.node); }, true},
+         {"value", [](const Fault& fault) { return fault.value; }},
+         {"limit", [](const Fault& fault) { return fault.limit; }},
+         {"sentence", [](const Fault& fault) { return fault.sentence; }}}));
 }
 
 // ---- switches ----
@@ -201,7 +212,18 @@ void switches(const EditorView& view, TraceFindingsPanelState& state, Commands& 
         cell(one.isMorphed ? "yes" : "no", one.isMorphed ? palette().dim : palette().text);
         cell(planet::traceSwitchCauseName(one.cause));
     });
-    ImGui::EndTable();
+    using Switch = planet::TraceSwitch;
+    endTable(exportTable<Switch>(
+        "trace switches", rows.size(), [&](std::size_t row) { return *rows[row]; },
+        {{"frame", [](const Switch& one) { return one.frame; }, true},
+         {"time_s", [](const Switch& one) { return one.timeS; }},
+         {"node", [&](const Switch& one) { return traceNodeName(view, one.node); }, true},
+         {"switch", [](const Switch& one) { return one.isSplit ? "split" : "merged"; }},
+         {"error_px", [](const Switch& one) { return one.errorPx; }},
+         {"limit_px", [](const Switch& one) { return one.limitPx; }},
+         {"size_px", [](const Switch& one) { return one.sizePx; }},
+         {"morphed", [](const Switch& one) { return one.isMorphed; }},
+         {"cause", [](const Switch& one) { return planet::traceSwitchCauseName(one.cause); }}}));
 }
 
 }  // namespace

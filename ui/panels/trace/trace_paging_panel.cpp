@@ -58,7 +58,14 @@ void queueTable(const EditorView& view, Commands& commands) {
         cell(secondsText(of.ageS));
         cell(std::isnan(of.priority) ? "-" : fmt::format("{:.3g}", static_cast<double>(of.priority)));
     });
-    ImGui::EndTable();
+    using Request = TracedRequest;
+    endTable(exportTable<Request>(
+        "trace queue", frame.queue.size(), [&](std::size_t row) { return frame.queue[row]; },
+        {{"node", [&](const Request& of) { return traceNodeName(view, of.node.id); }, true},
+         {"kind", [&](const Request& of) { return kindName(view, of.kind); }, true},
+         {"state", [](const Request& of) { return of.isStarted ? "being loaded" : "requested"; }},
+         {"age_s", [](const Request& of) { return of.ageS; }},
+         {"priority", [](const Request& of) { return of.priority; }}}));
 }
 
 const char* stepText(planet::TraceStep step) {
@@ -98,7 +105,27 @@ void stepTable(const EditorView& view, Commands& commands) {
         cell(thread(step));
         cell(frame.reasons[row], palette().bad);
     });
-    ImGui::EndTable();
+    const std::vector<planet::TracePagedStep>& steps = frame.frame.paged;
+    ExportTable table{.name = "trace steps",
+                      .columns = {{"node"}, {"step"}, {"kind"}, {"latency_s"}, {"thread"}, {"reason"}},
+                      .rows = steps.size()};
+    table.cell = [&](std::size_t row, std::size_t column) -> ExportCell {
+        switch (column) {
+            case 0:
+                return traceNodeName(view, frame.pagedIds[row]);
+            case 1:
+                return stepText(steps[row].event.step);
+            case 2:
+                return kindName(view, steps[row].event.kind);
+            case 3:
+                return latencyS(steps[row]);
+            case 4:
+                return thread(steps[row]);
+            default:
+                return frame.reasons[row];
+        }
+    };
+    endTable(table);
 }
 
 void kindTable(const EditorView& view) {
@@ -129,7 +156,19 @@ void kindTable(const EditorView& view) {
         cell(secondsText(of.latencyS.median));
         cell(secondsText(of.latencyS.p99));
     });
-    ImGui::EndTable();
+    using Kind = planet::TraceKindReport;
+    endTable(exportTable<Kind>(
+        "trace paging", kinds.size(), [&](std::size_t row) { return kinds[row]; },
+        {{"kind", [&](const Kind& of) { return kindName(view, static_cast<std::size_t>(of.kind)); }, true},
+         {"requested", [](const Kind& of) { return of.requested; }},
+         {"arrived", [](const Kind& of) { return of.arrived; }},
+         {"cancelled", [](const Kind& of) { return of.cancelled; }},
+         {"failed", [](const Kind& of) { return of.failed; }},
+         {"evicted", [](const Kind& of) { return of.evicted; }},
+         {"resident",
+          [&](const Kind& of) { return view.trace.frame->resident[static_cast<std::size_t>(of.kind)]; }},
+         {"median_latency_ms", [](const Kind& of) { return 1000 * of.latencyS.median; }},
+         {"p99_latency_ms", [](const Kind& of) { return 1000 * of.latencyS.p99; }}}));
 }
 
 void latencies(const EditorView& view, TracePagingPanelState& state) {
@@ -150,7 +189,7 @@ void latencies(const EditorView& view, TracePagingPanelState& state) {
     const auto& counts = history.latencies[static_cast<std::size_t>(state.kind)];
     const bool isAny = std::ranges::any_of(counts, [](float count) { return count > 0; });
     if (!isAny) return wrappedText("No latency is known yet.", palette().dim);
-    histogram("latency", counts, "0.1 ms", "100 s", {}, 4, [](double position) {
+    histogram("trace latencies", counts, "0.1 ms", "100 s", {}, 4, [](double position) {
         return millisecondsText(1000 *
                                 logarithmicValue(position, fastestTracedLatencyS, slowestTracedLatencyS));
     });
@@ -194,7 +233,15 @@ void starvationTable(const EditorView& view, Commands& commands) {
         cell(fmt::format("{}", of.mostNodes));
         cell(fmt::format("{:.2f} px", of.worstErrorPx));
     });
-    ImGui::EndTable();
+    using Starvation = TracedStarvation;
+    endTable(
+        exportTable<Starvation>("time until sharp", rows.size(), [&](std::size_t row) { return *rows[row]; },
+                                {{"first_frame", [](const Starvation& of) { return of.firstFrame; }, true},
+                                 {"last_frame", [](const Starvation& of) { return of.lastFrame; }},
+                                 {"until_sharp_s", [](const Starvation& of) { return of.untilS - of.fromS; }},
+                                 {"over", [](const Starvation& of) { return of.isOver; }},
+                                 {"max_nodes", [](const Starvation& of) { return of.mostNodes; }},
+                                 {"max_error_px", [](const Starvation& of) { return of.worstErrorPx; }}}));
 }
 
 void queueTabs(const EditorView& view, Commands& commands) {
