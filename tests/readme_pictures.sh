@@ -238,6 +238,14 @@ picture_sources() {
     point viewport/picture 0.5 0.5; sleep 2
     dock sources
 }
+# The whole window, because the pins lie on the globe.
+picture_notes() {
+    start < <(himalaya; window 1400 800; only notes 360)
+    settle; click notes/Text; xdotool type --delay 20 "The plateau begins here"; frames; click "notes/Add note"
+    click "viewport/picture" 0.3 0.6; settle; choose notes/About "the selected chunk"
+    click notes/Text; xdotool type --delay 20 "Too coarse at 2 px"; frames; click "notes/Add note"; aside
+    whole notes
+}
 picture_sweep() {
     start < <(above_india; window 1820 460; only sweep 1000)
     settle; choose sweep/Flight "orbit to ground"; click "sweep/Chunk 17"; choose sweep/Picture "640 x 400"; click sweep/Run
@@ -340,7 +348,7 @@ done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
     chunk paging frame bake sources log true_error cracks pops precision flight sweep trace_cesium trace trace_nodes \
-    trace_what_if"
+    trace_what_if notes"
 any=no
 for name in $windows; do asked $name && any=yes; done
 [ $any = yes ] || exit $((failures > 0))

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <utility>
 
 #include "app/base/process_memory.h"
@@ -83,6 +84,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
 
     ui::Commands commands;
     ui::beginExports(window_.exports, commands);
+    if (advanceReport(window_.report)) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
     takeDrops(window, window_.panels.bake, bakes_.sources, commands);
     advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
@@ -90,6 +92,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
     if (!files_.atStart.empty()) commands.push_back(ui::OpenTrace{std::exchange(files_.atStart, {})});
+    followNotes(files_.notes, shownPlanet(session), frames_.timeS, notices_);
     advanceTrace(files_.trace, secondsSinceLast, notices_.log);
     reloadChangedShaders(session, notices_.log);
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
@@ -114,6 +117,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
 
     window.endFrame([&] {
         savePlots(window_, window, notices_);
+        if (window_.report.isWanted)
+            keepReport(window_, window, windowContent(session), view(session), notices_);
         keepScreenshot(window_, window, windowContent(session), notices_);
     });
     stats.panelsGpuMs = window.panelsGpuMs();
@@ -150,8 +155,9 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     // A paused frame does not step, but it draws.
     scene.drawCpuMs = 0;
     scene.drawn = {};
-    viewport_.shaderWait =
-        window_.screenshotPending ? planet::gl::ShaderWait::UntilReady : planet::gl::ShaderWait::Never;
+    viewport_.shaderWait = window_.screenshotPending || window_.report.isWanted
+                               ? planet::gl::ShaderWait::UntilReady
+                               : planet::gl::ShaderWait::Never;
     if (!replaying()) giveSettings(recording_, scene, settings, paging_.paused, notices_.log);
     placeCameras(camera_, scene, viewport_, settings_.settings);
     const FrameStep step = takeStep(frames_, seconds);
@@ -240,13 +246,17 @@ ui::EditorView Editor::view(Session& session) {
             .sweep = sweepViewOf(sweep_),
             .layers = layersViewOf(layers_, scene, settings.surface.layers),
             .sources = sourcesViewOf(bakes_.sources, session),
-            .trace = traceViewOf(files_.trace)};
+            .trace = traceViewOf(files_.trace),
+            .notes = notesViewOf(files_.notes)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
     // Hovering is requested in every frame in which the pointer is over a chunk.
     chunks_.focus.hovered.reset();
-    for (const ui::Command& command : commands) execute(command, window, session);
+    for (const ui::Command& command : commands) {
+        if (const auto* move = command.as<ui::MoveCamera>()) noteMove(window_, *move, camera_.bookmarks.list);
+        execute(command, window, session);
+    }
 }
 
 void Editor::execute(const ui::Command& command, const Window& window, Session& session) {
@@ -298,6 +308,9 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                 const std::optional<double> radiusM =
                     scene ? std::optional(scene->planet->tree().shape.radiusM) : std::nullopt;
                 worldy::execute(files_.trace, c, settings_.settings.workspace, radiusM, notices_, next);
+            },
+            [&](const ui::NoteCommand& c) {
+                executeNote(files_.notes, c, settings_.settings.workspace, notices_);
             },
         },
         command.feature());

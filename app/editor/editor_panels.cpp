@@ -11,6 +11,7 @@
 #include "ui/shell/bake_window.h"
 #include "ui/shell/compare_overlay.h"
 #include "ui/shell/drop_question.h"
+#include "ui/shell/note_pins.h"
 #include "ui/shell/status_bar.h"
 #include "ui/shell/viewport_overlay.h"
 
@@ -18,9 +19,9 @@ namespace worldy {
 
 namespace {
 
-// wiped: null, or the settings that dragging the divider changes.
-void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
-                   CompareSettings* wiped = nullptr) {
+// drawBefore: draws the items that lie over the picture.
+template <class DrawBefore>
+void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio, const DrawBefore& drawBefore) {
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
@@ -32,7 +33,7 @@ void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
     if (!target) return;
     const auto texture = static_cast<std::intptr_t>(target->colourTexture());
     ui::setItemScope(name);
-    if (wiped) ui::wipeHandle(*wiped, picture.rect);
+    drawBefore();
     ui::viewportPicture(reinterpret_cast<ImTextureID>(texture), picture.rect);
     ui::noteItem("picture");
     picture.pointer = readPointer(pixelRatio);
@@ -45,13 +46,16 @@ void viewportWindows(const ui::EditorView& view, ViewSettings& settings, Viewpor
     const float pixelRatio = viewport.pixelRatio;
     CompareSettings& compare = settings.compare;
     const bool wiping = view.compare.on && compare.mode == CompareMode::Wipe;
-    pictureWindow("viewport", viewport.main, pixelRatio, wiping ? &compare : nullptr);
+    pictureWindow("viewport", viewport.main, pixelRatio, [&] {
+        if (wiping) ui::wipeHandle(compare, viewport.main.rect);
+        ui::notePinItems(view, settings, viewport.main.rect, commands);
+    });
     if (viewport.main.shown()) {
         if (view.planet) ui::viewportOverlay(view, settings, viewport.main.rect);
         ImGui::End();
         if (view.camera.inspecting) ui::inspectionNotice(view, viewport.main.rect, commands);
     }
-    pictureWindow("observer", viewport.observer, pixelRatio);
+    pictureWindow("observer", viewport.observer, pixelRatio, [] {});
     if (viewport.observer.shown()) {
         if (view.planet) {
             ui::observerOverlay(view, settings, viewport.observer.view, viewport.observer.rect);

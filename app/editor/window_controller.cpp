@@ -1,13 +1,17 @@
 #include "app/editor/window_controller.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "app/base/new_file.h"
 #include "app/base/places.h"
 #include "app/editor/overloaded.h"
+#include "app/records/session_report.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/shot_line.h"
@@ -99,6 +103,10 @@ void execute(WindowController& controller, const ui::WindowCommand& command, con
                    [&](const ui::SaveExport& save) { saveExport(save, notices); },
                    [&](const ui::SavePlotPicture& plot) { controller.plotsPending.push_back(plot); },
                    [&](const ui::TakeScreenshot& screenshot) { controller.screenshotPending = screenshot; },
+                   [&](const ui::SaveReport&) {
+                       controller.report.isWanted = true;
+                       controller.report.frames = 0;
+                   },
                    [&](const ui::Quit&) { window.close(); },
                },
                command);
@@ -109,6 +117,51 @@ void savePlots(WindowController& controller, const Window& window, Notices& noti
     const Picture whole = window.readPicture();
     for (const ui::SavePlotPicture& plot : std::exchange(controller.plotsPending, {}))
         tellSaved(savePlot(plot, whole, window.pixelRatio()), notices);
+}
+
+void noteMove(WindowController& controller, const ui::MoveCamera& move,
+              std::span<const ui::Bookmark> bookmarks) {
+    std::vector<std::string>& used = controller.report.usedBookmarks;
+    for (const ui::Bookmark& bookmark : bookmarks) {
+        const auto values = [](const planet::CameraPose& pose) {
+            return std::array{pose.latitudeDeg, pose.longitudeDeg, pose.altitudeM, pose.headingDeg,
+                              pose.pitchDeg};
+        };
+        const bool isNew = std::find(used.begin(), used.end(), bookmark.name) == used.end();
+        if (isNew && values(bookmark.pose) == values(move.pose)) used.push_back(bookmark.name);
+    }
+}
+
+bool advanceReport(PendingReport& report) {
+    // The menu is still drawn in the frame of the request.
+    return report.isWanted && ++report.frames >= 1;
+}
+
+void keepReport(WindowController& controller, const Window& window, const WindowContent& content,
+                const ui::EditorView& view, Notices& notices) {
+    PendingReport& report = controller.report;
+    if (!report.isWanted || report.frames < 1 || showsStandIn(content)) return;
+    report.isWanted = false;
+    const OpenPlanet* const open = shownPlanet(content.session);
+    if (!open || !view.planet) {
+        tellError(notices, {"The report was not saved", "No planet is open; open one first", ""});
+        return;
+    }
+    const planet::gl::RenderTarget* const target =
+        (content.viewport.main.shown() ? content.viewport.main : content.viewport.observer).shownTarget();
+    const Picture planet =
+        target ? Picture{target->widthPx(), target->heightPx(), target->readRgb()} : Picture();
+    const ReportFacts facts{.writtenAt = fmt::format("{:%Y-%m-%d %H:%M}", localTimeNow()),
+                            .version = WORLDY_VERSION,
+                            .openGl = window.openGlText(),
+                            .commandLine = lineOf(content),
+                            .usedBookmarks = report.usedBookmarks,
+                            .file = &open->scene.planet->file()};
+    const Result<std::filesystem::path> folder = writeSessionReport(
+        picturesFolder(), sessionReport(view, content.settings, facts), planet, window.readPicture());
+    if (!folder) return tellError(notices, {"The report was not saved", folder.error().message, ""});
+    confirm(notices, fmt::format("Report saved: {}", folder->filename().string()),
+            fmt::format("Report saved: {}", (*folder / "report.md").string()));
 }
 
 void keepScreenshot(WindowController& controller, const Window& window, const WindowContent& content,

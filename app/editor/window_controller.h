@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/base/log_lines.h"
@@ -21,6 +22,13 @@
 
 namespace worldy {
 
+// A requested session report, and what is remembered for one.
+struct PendingReport {
+    bool isWanted = false;  // kept until a frame is drawn with its settings, without a menu
+    int frames = 0;         // since it was requested
+    std::vector<std::string> usedBookmarks{};
+};
+
 struct WindowController {
     ui::PanelStates panels;
     ui::MenuState menu;
@@ -29,6 +37,7 @@ struct WindowController {
     std::filesystem::path itemMapFile;                    // for the positions of controls; empty: not written
     ui::ExportState exports{};                            // of tables and plots
     std::vector<ui::SavePlotPicture> plotsPending{};      // in this frame
+    PendingReport report{};
 };
 
 // The content of the window that a screenshot shows and its command line reproduces.
@@ -45,6 +54,17 @@ void execute(WindowController& controller, const ui::WindowCommand& command, con
 // Writes the pictures of plots that were requested in this frame into new files. Call when the frame is drawn but not yet
 // presented.
 void savePlots(WindowController& controller, const Window& window, Notices& notices);
+
+// Remembers a bookmark that the camera was moved to, for the report.
+void noteMove(WindowController& controller, const ui::MoveCamera& move,
+              std::span<const ui::Bookmark> bookmarks);
+
+// Call at the start of a frame. Returns true if the frame may be that of the report: nothing is hovered in it.
+bool advanceReport(PendingReport& report);
+// Writes the requested session report, if any, into a new folder. view: of this frame. Call when the frame is drawn but
+// not yet presented.
+void keepReport(WindowController& controller, const Window& window, const WindowContent& content,
+                const ui::EditorView& view, Notices& notices);
 
 // Writes the requested screenshot, if any, into a new file, with the settings that made it. Call when the
 // frame is drawn but not yet presented. Waits for a frame that is drawn as the settings require.

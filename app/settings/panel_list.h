@@ -34,7 +34,8 @@ enum class PanelId : std::uint8_t {
     TraceNode,
     TracePaging,
     TraceFindings,
-    TraceWhatIf
+    TraceWhatIf,
+    Notes
 };
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
@@ -76,6 +77,7 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::TracePaging, "Trace paging", "trace_paging", "Ctrl+Shift+P", Dock::Bottom, false},
     {PanelId::TraceFindings, "Trace findings", "trace_findings", "Ctrl+Shift+F", Dock::Bottom, false},
     {PanelId::TraceWhatIf, "What if", "trace_what_if", "Ctrl+Shift+W", Dock::Bottom, false},
+    {PanelId::Notes, "Notes", "notes", "Ctrl+M", Dock::Left, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

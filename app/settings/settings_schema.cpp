@@ -230,7 +230,12 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
          {"overlay", "sources", "Source outlines",
           "Draws what each layer of the source covers, on the planet and on the net of the Quadtree panel, "
           "in the layer's colour of the Sources panel. A layer that covers the planet has no outline.",
-          Flag{&overlay.sources}}});
+          Flag{&overlay.sources}},
+         {"overlay", "notes", "Note pins",
+          "Draws a pin with its first words where a note lies. A click opens the note. Off: the notes stay "
+          "in the Notes "
+          "panel.",
+          Flag{&overlay.notes}}});
 }
 
 constexpr std::array<std::string_view, 2> surfaceLabels = {"image", "height ramp"};

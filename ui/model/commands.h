@@ -17,6 +17,7 @@
 #include "app/data/world_edit.h"
 #include "app/measure/pop_side.h"
 #include "app/measure/sweep_points.h"
+#include "app/notes/note.h"
 #include "app/settings/view_settings.h"
 #include "app/trace/trace_what_if_request.h"
 #include "planet/bake/bake.h"
@@ -159,9 +160,10 @@ struct SavePlotPicture {  // a part of the window, from this frame, as PNG
 struct TakeScreenshot {
     bool withPanels = false;
 };
+struct SaveReport {};  // of the session, into a new folder beside the screenshots
 struct Quit {};
 using WindowCommand =
-    std::variant<CopyCommandLine, CopyText, SaveExport, SavePlotPicture, TakeScreenshot, Quit>;
+    std::variant<CopyCommandLine, CopyText, SaveExport, SavePlotPicture, TakeScreenshot, SaveReport, Quit>;
 
 // Texture layers.
 struct LoadLayerSet {
@@ -308,10 +310,26 @@ using TraceCommand = std::variant<OpenTrace, AttachTrace, DetachTrace, CloseTrac
                                   PlayTrace, SelectTraceNode, SelectTraceView, ShowTraceOnPlanet, LookAsTrace,
                                   StartTraceWhatIf, CancelTraceWhatIf>;
 
+// Notes on the planet.
+struct AddNote {
+    Note note;
+};
+struct EditNote {
+    std::uint64_t id = 0;
+    std::string text;
+};
+struct DeleteNote {
+    std::uint64_t id = 0;
+};
+struct OpenNote {  // in the Notes panel
+    std::uint64_t id = 0;
+};
+using NoteCommand = std::variant<AddNote, EditNote, DeleteNote, OpenNote>;
+
 using FeatureCommand =
     std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand, BakeCommand,
                  SettingsCommand, WindowCommand, LayerCommand, InstrumentCommand, RecordingCommand,
-                 SweepCommand, CompareCommand, SourceCommand, TraceCommand>;
+                 SweepCommand, CompareCommand, SourceCommand, TraceCommand, NoteCommand>;
 
 // FeatureOf<Kind> is the variant that holds a kind of command: FeatureOf<SelectChunk> is ChunkCommand.
 template <class Kind, class Features>
@@ -346,6 +364,7 @@ public:
     Command(CompareCommand command);
     Command(SourceCommand command);
     Command(TraceCommand command);
+    Command(NoteCommand command);
     Command(Command&&) noexcept;
     Command& operator=(Command&&) noexcept;
     ~Command();

@@ -25,6 +25,7 @@
 #include "ui/model/errors_view.h"
 #include "ui/model/layers_view.h"
 #include "ui/model/light_view.h"
+#include "ui/model/notes_view.h"
 #include "ui/model/pops_view.h"
 #include "ui/model/probe_view.h"
 #include "ui/model/recording_view.h"
@@ -158,6 +159,7 @@ struct EditorView {
     LayersView layers{};
     SourcesView sources{};
     TraceView trace{};
+    NotesView notes{};
 };
 
 }  // namespace worldy::ui

@@ -59,6 +59,8 @@ void fileMenu(const EditorView& view, Workspace& workspace, Commands& commands) 
     if (menuItem("Screenshot", "F12", false, greyUnless(view.planet, noPlanet)))
         commands.push_back(TakeScreenshot{false});
     if (menuItem("Screenshot with panels", "Shift+F12")) commands.push_back(TakeScreenshot{true});
+    if (menuItem("Save session report...", nullptr, false, greyUnless(view.planet, noPlanet)))
+        commands.push_back(SaveReport{});
     if (menuItem("Copy as command line", "Ctrl+Shift+C", false, greyUnless(view.planet, noPlanet)))
         commands.push_back(CopyCommandLine{});
     ImGui::Separator();

@@ -59,6 +59,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return traceFindingsPanel(view, states.traceFindings, commands);
         case PanelId::TraceWhatIf:
             return whatIfPanel(view, states.traceWhatIf, commands);
+        case PanelId::Notes:
+            return notesPanel(view, states.notes, settings, commands);
     }
 }
 

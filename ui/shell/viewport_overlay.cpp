@@ -12,6 +12,7 @@
 #include "ui/model/overlay_legend.h"
 #include "ui/model/paging_text.h"
 #include "ui/shell/compare_overlay.h"
+#include "ui/shell/note_pins.h"
 
 namespace worldy::ui {
 
@@ -305,6 +306,7 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
                    {view.camera.renderView, 0, one.whole, taken});
         ImGui::PopClipRect();
     }
+    drawNotePins(view, settings, viewport);
     compareOverlay(view.compare, settings.compare, viewport);
     drawLegend(drawList, legend, layout, taken.front());
     for (const PlacedBadge& one : badges) {
