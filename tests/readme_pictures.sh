@@ -198,7 +198,7 @@ picture_ruler() {
     start < <(himalaya; window 1400 800; only ruler 380; echo 'lod.tau_px = 4')
     settle; click "ruler/Click places"
     point viewport/picture 0.35 0.75; xdotool click 1; frames 5; point viewport/picture 0.6 0.55; xdotool click 1; frames 5
-    sleep 3; point ruler/Profile 0.4 0.5; frames 3
+    sleep 3; aside
     dock ruler
 }
 picture_flight() {
@@ -244,6 +244,14 @@ picture_sources() {
     until_true shown "sources/layer ETOPO5"; click "sources/layer Andes at Aconcagua"; settle
     point viewport/picture 0.5 0.5; sleep 2
     dock sources
+}
+# The whole window, because the pins lie on the globe.
+picture_notes() {
+    start < <(himalaya; window 1400 800; only notes 360)
+    settle; click notes/Text; xdotool type --delay 20 "The plateau begins here"; frames; click "notes/Add note"
+    click "viewport/picture" 0.3 0.6; settle; choose notes/About "the selected chunk"
+    click notes/Text; xdotool type --delay 20 "Too coarse at 2 px"; frames; click "notes/Add note"; aside
+    whole notes
 }
 picture_sweep() {
     start < <(above_india; window 1820 460; only sweep 1000)
@@ -347,7 +355,7 @@ done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
     chunk paging frame bake sources log true_error cracks pops precision ruler flight sweep trace_cesium trace trace_nodes \
-    trace_what_if"
+    trace_what_if notes"
 any=no
 for name in $windows; do asked $name && any=yes; done
 [ $any = yes ] || exit $((failures > 0))

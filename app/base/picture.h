@@ -21,6 +21,9 @@ struct Picture {
 // Reads any image that OpenImageIO can read. Grey becomes RGB, alpha is dropped.
 planet::Result<Picture> readPicture(const std::filesystem::path& file);
 
+// Returns the part of a picture in a rectangle of pixels, cut off at the picture's borders.
+Picture partOf(const Picture& picture, int x, int y, int width, int height);
+
 // Reads a picture of a whole planet and resamples it to pixel centres from longitude -180 to 180. GeoTIFF
 // tags or the size say where its samples lie (planet/raster/image_placement.h). A picture without tags may
 // have any shape. A region or another projection is an Error.

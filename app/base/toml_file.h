@@ -1,6 +1,10 @@
 // Reads TOML, as the library does.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <string>
+
 #include "planet/source/toml_file.h"
 
 namespace worldy {
@@ -15,5 +19,11 @@ using planet::readNumber;
 using planet::readText;
 using planet::shownValue;
 using planet::textOf;
+
+// Returns the Error that names the file and the line of a node.
+inline tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, const toml::node& node,
+                                           const std::string& message) {
+    return planet::badInput(fmt::format("{}: {}", placeOf(file, node), message));
+}
 
 }  // namespace worldy

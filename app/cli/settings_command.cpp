@@ -37,6 +37,8 @@ struct KindJson {
     nlohmann::ordered_json operator()(const Text&) const { return {{"type", "text"}}; }
     nlohmann::ordered_json operator()(const Ramp&) const { return {{"type", "ramp"}}; }
     nlohmann::ordered_json operator()(const LayerStack&) const { return {{"type", "layers"}}; }
+    nlohmann::ordered_json operator()(const TabOrder&) const { return {{"type", "panels"}}; }
+    nlohmann::ordered_json operator()(const FloatingPanels&) const { return {{"type", "floating_panels"}}; }
     nlohmann::ordered_json operator()(const Choice& choice) const {
         nlohmann::ordered_json values = nlohmann::ordered_json::array();
         for (const std::string_view name : choice.names) values.push_back(name);

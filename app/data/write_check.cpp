@@ -91,6 +91,8 @@ bool isOfKind(const fs::path& file, OutputKind kind) {
             return loadLayerSet(file).has_value();
         case OutputKind::Preset:
             return loadViewPart(file).has_value();
+        case OutputKind::Layout:
+            return loadLayout(file).has_value();
         case OutputKind::ItemMap:
             return startOfFile(file, 8) == "counter/";
         case OutputKind::Trace:
@@ -115,6 +117,8 @@ std::string_view nameOf(OutputKind kind) {
             return "a layer set";
         case OutputKind::Preset:
             return "a preset";
+        case OutputKind::Layout:
+            return "a layout";
         case OutputKind::ItemMap:
             return "an item map";
         case OutputKind::Trace:

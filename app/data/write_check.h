@@ -19,6 +19,7 @@ enum class OutputKind : std::uint8_t {
     PngImage,  // any PNG
     LayerSet,  // TOML
     Preset,    // TOML, settings files too
+    Layout,    // TOML
     ItemMap,
     Trace,
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <utility>
 
 #include "app/base/process_memory.h"
@@ -18,6 +19,7 @@
 #include "planet/planet_tools.h"
 #include "planet/source/terrain.h"
 #include "ui/kit/theme.h"
+#include "ui/shell/menu_bar.h"
 #include "ui/shell/status_bar.h"
 
 namespace worldy {
@@ -45,6 +47,9 @@ Editor::Editor(const Settings& settings, const Log& log)
     settings_.settings = settings;
     camera_.bookmarks = loadBookmarks(bookmarksFile());
     if (!camera_.bookmarks.problem.empty()) log->warn("{}", camera_.bookmarks.problem);
+    readKeys(window_, notices_);
+    for (const NamedLayout& layout : settings_.layouts.layouts())
+        if (!layout.workspace) log->error("{}", layout.workspace.error().message);
     camera_.flights = availableFlights();
     recording_ = openRecordings(recordingsFolder());
 }
@@ -106,6 +111,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::collectItems(window_.itemMapFile.empty() ? nullptr : &items);
 
     ui::Commands commands;
+    ui::beginExports(window_.exports, commands);
+    if (advanceReport(window_.report)) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
     takeDrops(window, window_.panels.bake, bakes_.sources, commands);
     advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
@@ -113,6 +120,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
     takeUpSession(session, commands);
+    followNotes(files_.notes, shownPlanet(session), frames_.timeS, notices_);
     advanceTrace(files_.trace, movedS, notices_.log);
     reloadChangedShaders(session, notices_.log);
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
@@ -126,15 +134,25 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     const ui::EditorView shown = view(session);
     drawPanels(window_, {session, shown, layout, settings_.settings, viewport_, files_.dialog, notices_},
                commands);
-    obeyShortcuts(window.pressedKeys(), {shown, settings_.settings.view, workspace, window_.menu, commands});
+    obeyShortcuts(window.pressedKeys(),
+                  {shown, settings_.settings.view, workspace, window_.menu, window_.keys, commands});
+    if (const auto click = std::exchange(window_.menu.mouse, std::nullopt))
+        window.pressMouse({click->x, click->y}, click->button);
+    if (const std::string why = std::exchange(window_.menu.refused, {}); !why.empty()) show(notices_, why);
     // A replay's settings are not the user's, so they are not recorded for undo.
     if (!replaying())
         settings_.undo.record(before, settings_.settings.view, ImGui::IsAnyItemActive(), frames_.timeS);
+    ui::endExports();
     execute(commands, window, session);
     stats.panelsMs = panelWatch.elapsedMs();
     ui::collectItems(nullptr);
 
-    window.endFrame([&] { keepScreenshot(window_, window, windowContent(session), notices_); });
+    window.endFrame([&] {
+        savePlots(window_, window, notices_);
+        if (window_.report.isWanted)
+            keepReport(window_, window, windowContent(session), view(session), notices_);
+        keepScreenshot(window_, window, windowContent(session), notices_);
+    });
     stats.panelsGpuMs = window.panelsGpuMs();
     stats.presentMs = window.presentMs();
     stats.frameMs = 1000 * movedS;
@@ -188,8 +206,9 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     // A paused frame does not step, but it draws.
     scene.drawCpuMs = 0;
     scene.drawn = {};
-    viewport_.shaderWait =
-        window_.screenshotPending ? planet::gl::ShaderWait::UntilReady : planet::gl::ShaderWait::Never;
+    viewport_.shaderWait = window_.screenshotPending || window_.report.isWanted
+                               ? planet::gl::ShaderWait::UntilReady
+                               : planet::gl::ShaderWait::Never;
     if (!replaying()) giveSettings(recording_, scene, settings, paging_.paused, notices_.log);
     placeCameras(camera_, scene, viewport_, settings_.settings);
     const FrameStep step = takeStep(frames_, seconds);
@@ -316,13 +335,17 @@ ui::EditorView Editor::view(Session& session) {
         .sweep = sweepViewOf(sweep_),
         .layers = layersViewOf(layers_, scene, settings.surface.layers),
         .sources = sourcesViewOf(bakes_.sources, session),
-        .trace = traceViewOf(files_.trace)};
+        .trace = traceViewOf(files_.trace),
+        .notes = notesViewOf(files_.notes)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
     // Hovering is requested in every frame in which the pointer is over a chunk.
     chunks_.focus.hovered.reset();
-    for (const ui::Command& command : commands) execute(command, window, session);
+    for (const ui::Command& command : commands) {
+        if (const auto* move = command.as<ui::MoveCamera>()) noteMove(window_, *move, camera_.bookmarks.list);
+        execute(command, window, session);
+    }
 }
 
 void Editor::execute(const ui::Command& command, const Window& window, Session& session) {
@@ -374,6 +397,9 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                 const std::optional<double> radiusM =
                     scene ? std::optional(scene->planet->tree().shape.radiusM) : std::nullopt;
                 worldy::execute(files_.trace, c, settings_.settings.workspace, radiusM, notices_, next);
+            },
+            [&](const ui::NoteCommand& c) {
+                executeNote(files_.notes, c, settings_.settings.workspace, notices_);
             },
         },
         command.feature());

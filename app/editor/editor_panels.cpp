@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "app/base/text.h"
@@ -10,7 +11,13 @@
 #include "ui/kit/widgets.h"
 #include "ui/shell/bake_window.h"
 #include "ui/shell/compare_overlay.h"
+#include "ui/shell/docks.h"
 #include "ui/shell/drop_question.h"
+#include "ui/shell/focus.h"
+#include "ui/shell/help_windows.h"
+#include "ui/shell/menu_bar.h"
+#include "ui/shell/note_pins.h"
+#include "ui/shell/palette.h"
 #include "ui/shell/status_bar.h"
 #include "ui/shell/viewport_overlay.h"
 
@@ -18,21 +25,21 @@ namespace worldy {
 
 namespace {
 
-// wiped: null, or the settings that dragging the divider changes.
-void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio,
-                   CompareSettings* wiped = nullptr) {
+// drawBefore: draws the items that lie over the picture.
+template <class DrawBefore>
+void pictureWindow(const char* name, PlanetPicture& picture, float pixelRatio, const DrawBefore& drawBefore) {
     picture.pointer = {};
     if (!picture.shown()) return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-    ui::beginFixedWindow(
-        name, picture.rect,
-        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
+    ui::beginFixedWindow(name, picture.rect,
+                         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                             ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNavInputs);
     ImGui::PopStyleVar();
     const planet::gl::RenderTarget* target = picture.shownTarget();
     if (!target) return;
     const auto texture = static_cast<std::intptr_t>(target->colourTexture());
     ui::setItemScope(name);
-    if (wiped) ui::wipeHandle(*wiped, picture.rect);
+    drawBefore();
     ui::viewportPicture(reinterpret_cast<ImTextureID>(texture), picture.rect);
     ui::noteItem("picture");
     picture.pointer = readPointer(pixelRatio);
@@ -45,13 +52,16 @@ void viewportWindows(const ui::EditorView& view, ViewSettings& settings, Viewpor
     const float pixelRatio = viewport.pixelRatio;
     CompareSettings& compare = settings.compare;
     const bool wiping = view.compare.on && compare.mode == CompareMode::Wipe;
-    pictureWindow("viewport", viewport.main, pixelRatio, wiping ? &compare : nullptr);
+    pictureWindow("viewport", viewport.main, pixelRatio, [&] {
+        if (wiping) ui::wipeHandle(compare, viewport.main.rect);
+        ui::notePinItems(view, settings, viewport.main.rect, commands);
+    });
     if (viewport.main.shown()) {
         if (view.planet) ui::viewportOverlay(view, settings, viewport.main.rect);
         ImGui::End();
         if (view.camera.inspecting) ui::inspectionNotice(view, viewport.main.rect, commands);
     }
-    pictureWindow("observer", viewport.observer, pixelRatio);
+    pictureWindow("observer", viewport.observer, pixelRatio, [] {});
     if (viewport.observer.shown()) {
         if (view.planet) {
             ui::observerOverlay(view, settings, viewport.observer.view, viewport.observer.rect);
@@ -74,34 +84,47 @@ ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorVi
 void emptyViewport(const Session& session, const ui::EditorView& view, const ui::Rect& rect,
                    Viewport& viewport, ui::Commands& commands) {
     viewport.main.pointer = viewport.observer.pointer = {};
-    ui::beginFixedWindow("viewport", rect);
+    ui::beginFixedWindow("viewport", rect, ImGuiWindowFlags_NoNavInputs);
     ImGui::End();
     const ui::BakeWindowCommands asked = ui::bakeWindow(bakeWindowInputOf(session, view), rect);
     if (asked.cancel) commands.push_back(ui::CancelBake{});
     if (asked.bakeAgain) commands.push_back(ui::BakeAgain{});
 }
 
+// Returns true if the command moves the camera to something that the user wants to see.
+bool leadsToAPlace(const ui::Command& command) {
+    return command.as<ui::MoveCamera>() || command.as<ui::InspectPlace>() || command.as<ui::LookAtChunk>() ||
+           command.as<ui::GoBackToPop>() || command.as<ui::LookAsTrace>();
+}
+
 }  // namespace
 
 void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands) {
     const ui::EditorView& view = context.view;
-    const ui::Rect& middle = context.layout.viewport;
+    const ui::Rect& middle = context.layout.viewportCovered ? context.layout.area : context.layout.viewport;
     Workspace& workspace = context.settings.workspace;
     ViewSettings& settings = context.settings.view;
-    ui::menuBar(view, window.menu, workspace, settings, commands);
-    if (view.planet)
+    const ui::ActionContext actions{view, settings, workspace, window.menu, window.keys, commands};
+    ui::menuBar(actions);
+    if (context.layout.viewportCovered)
+        context.viewport.main.pointer = context.viewport.observer.pointer = {};
+    else if (view.planet)
         viewportWindows(view, settings, context.viewport, commands);
     else
         emptyViewport(context.session, view, middle, context.viewport, commands);
-    for (const Dock dock : {Dock::Left, Dock::Right, Dock::Bottom}) {
-        ui::drawDock(dock, context.layout, view, window.panels, workspace, settings, commands);
-    }
+    ui::drawDocks(context.layout, view, window.panels, window.docks, workspace, settings, commands);
+    // A maximised dock would hide the place.
+    if (std::any_of(commands.begin(), commands.end(), leadsToAPlace))
+        workspace.maximised = MaximisedDock::None;
     ui::statusBar(view, settings, context.layout.statusBar);
-    ui::helpWindows(window.menu);
+    ui::helpWindows(actions);
+    ui::layoutWindows(view, window.menu.layout, commands);
     ui::confirmationLine(context.notices.confirmation, context.notices.timeS, middle);
     ui::openDialog(context.openDialog, commands);
     ui::messageBox(context.notices.message, commands);
     ui::dropQuestion(view.sources, commands);
+    ui::palette(actions);
+    ui::followFocus(workspace, window.menu);
 }
 
 }  // namespace worldy

@@ -10,6 +10,7 @@
 #include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
 #include "app/editor/trace_controller.h"
+#include "app/records/notes_controller.h"
 #include "app/settings/session_file.h"
 #include "ui/model/commands.h"
 #include "ui/shell/open_dialog.h"
@@ -23,6 +24,7 @@ struct FileController {
     ui::OpenDialogState dialog;
     LastSession atStart{};    // what the first frames open; its planet is open or will be
     TraceController trace{};  // the open trace, beside the planet
+    NotesController notes{};  // the notes on the shown planet
 };
 
 FileController openFileController();
@@ -44,5 +46,10 @@ void execute(FileController& files, const ui::FileCommand& command, const FileCo
 bool followOpening(FileController& files, const Session& session, Notices& notices);
 // Does the same and saves the list of recent files.
 void advanceFiles(FileController& files, const Session& session, Notices& notices);
+
+// Follow the shown planet with its notes, and execute a command. Messages say what is wrong with their file.
+void followNotes(NotesController& notes, const OpenPlanet* open, double timeS, Notices& notices);
+void executeNote(NotesController& notes, const ui::NoteCommand& command, Workspace& workspace,
+                 Notices& notices);
 
 }  // namespace worldy

@@ -7,9 +7,9 @@
 
 #include "app/base/places.h"
 #include "app/base/utf8.h"
+#include "app/data/named_files.h"
 #include "app/data/write_check.h"
 #include "app/editor/overloaded.h"
-#include "app/editor/presets.h"
 #include "app/settings/layer_file.h"
 #include "planet/surface/layer_place.h"
 
@@ -67,7 +67,7 @@ Result<void> loadInto(LayerController& controller, const fs::path& file, LayerSe
 }
 
 Result<void> saveAs(LayerController& controller, std::string_view name, LayerSettings& layers) {
-    if (Result<void> good = checkPresetName(name); !good) return told(controller, std::move(good));
+    if (Result<void> good = checkFileName(name); !good) return told(controller, std::move(good));
     const auto same =
         std::find_if(controller.sets.begin(), controller.sets.end(),
                      [&](const ui::LayerSetFile& set) { return set.shipped && set.name == name; });

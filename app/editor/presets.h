@@ -9,24 +9,18 @@
 #include <string_view>
 #include <vector>
 
+#include "app/data/named_files.h"
 #include "app/settings/settings_text.h"
 #include "planet/base/result.h"
 #include "ui/model/editor_view.h"
 
 namespace worldy {
 
-struct PresetFolders {
-    std::filesystem::path shipped;
-    std::filesystem::path own;  // need not exist yet
-};
+using PresetFolders = NamedFolders;
 PresetFolders presetFolders();
 
 // The shipped preset that holds the default of every setting.
 inline constexpr std::string_view defaultPreset = "default";
-
-// Checks that a name is a valid file name on all systems: 1 to 60 bytes of UTF-8, without / \ : * ? " < >
-// and control characters, and without a dot or space at either end. The Error says what is wrong.
-planet::Result<void> checkPresetName(std::string_view name);
 
 // All presets, read once. Call reload() after files may have changed.
 class PresetLibrary {
@@ -48,13 +42,9 @@ public:
 
 private:
     struct Preset {
-        std::string name;
-        std::filesystem::path file;
-        bool shipped = false;
+        NamedFile named;
         planet::Result<ViewPart> part;
     };
-    void readFolder(const std::filesystem::path& folder, bool shipped);
-    const Preset* find(std::string_view name) const;
     planet::Result<const Preset*> existing(std::string_view name) const;
 
     PresetFolders folders_;

@@ -8,7 +8,7 @@
 
 #include "app/base/places.h"
 #include "app/base/stopwatch.h"
-#include "app/editor/presets.h"
+#include "app/data/named_files.h"
 #include "planet/planet_tools.h"
 
 namespace worldy {
@@ -131,7 +131,7 @@ void listRecordings(RecordingController& controller) {
 Result<void> startRecording(RecordingController& controller, planet::Planet& planet, std::string name) {
     listRecordings(controller);
     if (name.empty()) name = freeName(controller);
-    if (Result<void> good = checkPresetName(name); !good) return good;
+    if (Result<void> good = checkFileName(name); !good) return good;
     if (controller.unwritten) {
         return planet::badInput(fmt::format("The recording \"{}\" is not saved yet; stop it again to retry",
                                             controller.unwritten->name()));

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "app/editor/overloaded.h"
 
@@ -14,6 +17,58 @@ void loadPreset(SettingsController& controller, const std::string& name, Notices
     planet::Result<ViewSettings> loaded = controller.presets.load(name, controller.settings.view);
     if (!loaded) return tellError(notices, {"The preset cannot be loaded", loaded.error().message, ""});
     replaceView(controller, std::move(*loaded), "preset " + name);
+}
+
+// Returns true if the layout can be loaded again: it is the default or a saved one.
+bool isKept(const SettingsController& controller, const Workspace& workspace) {
+    if (areSameLayout(workspace, {})) return true;
+    const std::span<const NamedLayout> layouts = controller.layouts.layouts();
+    return std::any_of(layouts.begin(), layouts.end(), [&](const NamedLayout& layout) {
+        return layout.workspace && areSameLayout(workspace, *layout.workspace);
+    });
+}
+
+// name: for the user.
+void showLayout(SettingsController& controller, const Workspace& layout, const std::string& name,
+                Notices& notices) {
+    Workspace& workspace = controller.settings.workspace;
+    if (!isKept(controller, workspace)) controller.unsavedLayout = workspace;
+    workspace = withLayout(workspace, layout);
+    show(notices, fmt::format("Layout: {}", name));
+}
+
+void restoreLayout(SettingsController& controller, Notices& notices) {
+    if (!controller.unsavedLayout) return;
+    const Workspace layout = *std::exchange(controller.unsavedLayout, std::nullopt);
+    showLayout(controller, layout, "unsaved", notices);
+}
+
+void loadLayout(SettingsController& controller, const std::string& name, Notices& notices) {
+    const planet::Result<Workspace> loaded = controller.layouts.load(name);
+    if (!loaded) return tellError(notices, {"The layout cannot be loaded", loaded.error().message, ""});
+    showLayout(controller, *loaded, name, notices);
+}
+
+// Shows the layout after the current one: the default, the readable saved ones, and the unsaved one.
+void showNextLayout(SettingsController& controller, Notices& notices) {
+    const Workspace defaults;
+    struct Entry {
+        std::string name;
+        const Workspace* workspace;
+    };
+    std::vector<Entry> entries{{"default", &defaults}};
+    for (const NamedLayout& layout : controller.layouts.layouts()) {
+        if (layout.workspace) entries.push_back({layout.named.name, &*layout.workspace});
+    }
+    const Workspace& now = controller.settings.workspace;
+    const auto current = std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) {
+        return areSameLayout(now, *entry.workspace);
+    });
+    const bool isLast = current != entries.end() && current + 1 == entries.end();
+    if (isLast && controller.unsavedLayout) return restoreLayout(controller, notices);
+    // A layout that is not saved counts as the last one.
+    const Entry next = current == entries.end() || isLast ? entries.front() : *(current + 1);
+    showLayout(controller, Workspace(*next.workspace), next.name, notices);
 }
 
 }  // namespace
@@ -40,6 +95,21 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
             [&](const ui::LoadPreset& preset) {
                 if (maySet()) loadPreset(controller, preset.name, notices);
             },
+            [&](const ui::SaveLayout& layout) {
+                if (succeeded(
+                        notices,
+                        controller.layouts.save(layout.name, controller.settings.workspace, layout.replaces),
+                        "The layout was not saved"))
+                    confirm(notices, fmt::format("Layout {} saved", layout.name));
+            },
+            [&](const ui::LoadLayout& layout) { loadLayout(controller, layout.name, notices); },
+            [&](const ui::DeleteLayout& layout) {
+                if (succeeded(notices, controller.layouts.remove(layout.name), "The layout was not deleted"))
+                    confirm(notices, fmt::format("Layout {} deleted", layout.name));
+            },
+            [&](const ui::NextLayout&) { showNextLayout(controller, notices); },
+            [&](const ui::ResetLayout&) { showLayout(controller, {}, "default", notices); },
+            [&](const ui::RestoreLayout&) { restoreLayout(controller, notices); },
             [&](const ui::DeletePreset& preset) {
                 if (succeeded(notices, controller.presets.remove(preset.name), "The preset was not deleted"))
                     confirm(notices, fmt::format("Preset {} deleted", preset.name));
@@ -55,7 +125,7 @@ void replaceView(SettingsController& controller, ViewSettings settings, std::str
 
 ui::SettingsView settingsViewOf(SettingsController& controller) {
     return {controller.presets.views(controller.settings.view), controller.undo.undoName(),
-            controller.undo.redoName()};
+            controller.undo.redoName(), controller.layouts.layouts(), controller.unsavedLayout.has_value()};
 }
 
 }  // namespace worldy

@@ -1,8 +1,10 @@
 // The settings, their undo history and the presets. Main thread.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "app/data/layout_library.h"
 #include "app/editor/notices.h"
 #include "app/editor/presets.h"
 #include "app/settings/settings.h"
@@ -16,6 +18,8 @@ struct SettingsController {
     Settings settings;
     UndoHistory undo;
     PresetLibrary presets{presetFolders()};
+    LayoutLibrary layouts{layoutFolders()};
+    std::optional<Workspace> unsavedLayout;  // the last one that another replaced before it was saved
 };
 
 // Settings stay as they are during a replay, which restores them at its end.

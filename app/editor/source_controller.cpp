@@ -9,7 +9,7 @@
 #include "app/editor/overloaded.h"
 #include "planet/measure/pick.h"
 #include "planet/source/height_source.h"
-#include "ui/shell/docks.h"
+#include "ui/model/docking.h"
 
 namespace worldy {
 
@@ -23,11 +23,6 @@ planet::Geographic middleOf(const planet::ChunkId& chunk) {
     const double half = square.side / 2;
     return planet::geographicFromDirection(
         planet::sphereFromCube(planet::cubePoint(chunk.face, square.u + half, square.v + half)));
-}
-
-bool isInFront(const Workspace& workspace, PanelId panel) {
-    const PanelPlace& place = workspace.panels[static_cast<std::size_t>(panel)];
-    return place.shown && workspace.inFront[static_cast<std::size_t>(place.dock)] == panel;
 }
 
 void changeEdit(LayerEditing& editing, WorldEdit edit) {
@@ -95,7 +90,7 @@ void readSource(SourceController& sources, const Settings& settings, const Log& 
         }
     }
     const OverlaySettings& overlay = settings.view.overlay;
-    const bool wanted = sources.reader.asked || isInFront(settings.workspace, PanelId::Sources) ||
+    const bool wanted = sources.reader.asked || ui::isVisible(PanelId::Sources, settings.workspace) ||
                         overlay.sources || overlay.colourBy == ColourBy::Source;
     if (!wanted || sources.reader.layers || !sources.reader.problem.empty() || sources.source.empty()) return;
     sources.reader.job = std::make_unique<SourceJob>(sources.source, sources.settings);
@@ -145,7 +140,8 @@ bool isSame(const planet::Geographic& a, const planet::Geographic& b) {
 // Returns the ground under the pointer, if a panel shows what made it.
 std::optional<planet::Geographic> pointedPlace(const SourceFrame& frame) {
     const Workspace& workspace = frame.settings.workspace;
-    if (!isInFront(workspace, PanelId::Sources) && !isInFront(workspace, PanelId::Probe)) return std::nullopt;
+    if (!ui::isVisible(PanelId::Sources, workspace) && !ui::isVisible(PanelId::Probe, workspace))
+        return std::nullopt;
     const PlanetPicture& picture = frame.picture;
     if (!picture.shown() || !picture.pointer.over) return std::nullopt;
     const planet::Planet& planet = *frame.open->scene.planet;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
+#include "app/base/new_file.h"
 #include "app/base/output_file.h"
 #include "app/base/places.h"
 #include "app/data/write_check.h"
@@ -158,10 +158,7 @@ Result<fs::path> saveSweep(const SweepController& controller, SweepCost cost, co
         return planet::badInput("There is no completed sweep to save");
     std::vector<SweepPoint> points = controller.table->points;
     markFront(points, cost);
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    ::localtime_r(&now, &local);
-    const Result<fs::path> picture = newScreenshotFile(folder, local);
+    const Result<fs::path> picture = newScreenshotFile(folder, localTimeNow());
     if (!picture) return picture;
     fs::path table = *picture, report = *picture;
     table.replace_extension(".csv");

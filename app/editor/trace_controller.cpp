@@ -10,7 +10,7 @@
 
 #include "app/base/places.h"
 #include "app/editor/overloaded.h"
-#include "ui/shell/docks.h"
+#include "ui/model/docking.h"
 
 namespace worldy {
 

@@ -22,14 +22,10 @@ using planet::Result;
 
 constexpr double knownTo = 1.02;  // relative accuracy of a suggested tau
 
-// Counts are integers and on_front is a boolean, in both tables.
-using Cell = std::variant<double, std::uint64_t, bool>;
+using Cell = std::variant<double, std::uint64_t, bool, std::string_view>;
 
-struct Column {
-    const char* name;
-    Cell (*of)(const SweepPoint&);
-};
-constexpr std::array<Column, 16> columns = {{
+constexpr std::array<SweepFigure, 17> columns = {{
+    {"metric", [](const SweepPoint& p) -> Cell { return std::string_view(metricName(p.metric)); }},
     {"chunk_size", [](const SweepPoint& p) -> Cell { return static_cast<std::uint64_t>(p.chunkSize); }},
     {"tau_px", [](const SweepPoint& p) -> Cell { return p.tauPx; }},
     {"mean_ground_triangles", [](const SweepPoint& p) -> Cell { return p.figures.meanGroundTriangles; }},
@@ -61,12 +57,16 @@ Json limitJson(const TauGoal& goal) {
 
 }  // namespace
 
+std::span<const SweepFigure> sweepFigures() {
+    return columns;
+}
+
 std::string sweepCsv(std::span<const SweepPoint> points) {
-    std::string text = "schema_version,metric";
-    for (const Column& column : columns) text += fmt::format(",{}", column.name);
+    std::string text = "schema_version";
+    for (const SweepFigure& column : columns) text += fmt::format(",{}", column.name);
     for (const SweepPoint& point : points) {
-        text += fmt::format("\n{},{}", schemaVersion, metricName(point.metric));
-        for (const Column& column : columns)
+        text += fmt::format("\n{}", schemaVersion);
+        for (const SweepFigure& column : columns)
             text += std::visit([](auto value) { return fmt::format(",{}", value); }, column.of(point));
     }
     return text + "\n";
@@ -78,8 +78,8 @@ std::string sweepJson(std::span<const SweepPoint> points, const std::string& fil
     report["frames"] = points.empty() ? 0 : points.front().figures.frames;
     report["points"] = Json::array();
     for (const SweepPoint& point : points) {
-        Json entry = {{"metric", metricName(point.metric)}};
-        for (const Column& column : columns)
+        Json entry = Json::object();
+        for (const SweepFigure& column : columns)
             std::visit([&](auto value) { entry[column.name] = value; }, column.of(point));
         report["points"].push_back(std::move(entry));
     }

@@ -1,9 +1,12 @@
 // The tables of a sweep, and the search for a suggested tau.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "app/flight/measure_flight.h"
@@ -11,6 +14,13 @@
 #include "app/measure/sweep_table.h"
 
 namespace worldy {
+
+// A column of the tables of points. Counts are integers and on_front is a boolean.
+struct SweepFigure {
+    const char* name;  // "tau_px"
+    std::variant<double, std::uint64_t, bool, std::string_view> (*of)(const SweepPoint&);
+};
+std::span<const SweepFigure> sweepFigures();
 
 // Return the table of points; the CSV has a header line and one line per point.
 std::string sweepCsv(std::span<const SweepPoint> points);

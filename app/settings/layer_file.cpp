@@ -51,11 +51,6 @@ std::vector<LayerKey> keysOf(TextureLayer& layer) {
             {"noise_size_m", "", &layer.noiseSizeM, {0.1, 1e6, "m"}}};
 }
 
-tl::unexpected<planet::Error> wrong(const fs::path& file, const toml::node& node,
-                                    const std::string& message) {
-    return planet::badInput(fmt::format("{}: {}", placeOf(file, node), message));
-}
-
 // Longer names would not fit into a recorded flight.
 constexpr std::size_t mostNameBytes = 1000;
 

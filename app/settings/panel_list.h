@@ -35,7 +35,8 @@ enum class PanelId : std::uint8_t {
     TracePaging,
     TraceFindings,
     TraceWhatIf,
-    Ruler
+    Ruler,
+    Notes
 };
 
 enum class Dock : std::uint8_t { Left, Right, Bottom };
@@ -78,6 +79,7 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::TraceFindings, "Trace findings", "trace_findings", "Ctrl+Shift+F", Dock::Bottom, false},
     {PanelId::TraceWhatIf, "What if", "trace_what_if", "Ctrl+Shift+W", Dock::Bottom, false},
     {PanelId::Ruler, "Ruler", "ruler", "Ctrl+Shift+R", Dock::Left, false},
+    {PanelId::Notes, "Notes", "notes", "Ctrl+M", Dock::Left, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

@@ -1,16 +1,12 @@
 #include "app/settings/screenshot.h"
 
-#include <fcntl.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <vector>
 
+#include "app/base/new_file.h"
 #include "app/base/places.h"
 #include "app/settings/camera_text.h"
 #include "app/settings/settings_text.h"
@@ -28,8 +24,6 @@ constexpr const char* dataSetKeyword = "worldy:data";
 constexpr const char* shotLineKeyword = "worldy:shot";
 constexpr const char* versionKeyword = "worldy:version";
 
-constexpr int mostOfASecond = 1000;  // files with the same name except for their number
-
 }  // namespace
 
 Result<void> writeScreenshot(const Picture& picture, const fs::path& file, const ScreenshotNote& note) {
@@ -46,10 +40,7 @@ Result<void> writeScreenshot(const Picture& picture, const fs::path& file, const
 }
 
 Result<fs::path> writeNewScreenshot(const Picture& picture, const ScreenshotNote& note) {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    ::localtime_r(&now, &local);
-    Result<fs::path> file = newScreenshotFile(picturesFolder(), local);
+    Result<fs::path> file = newScreenshotFile(picturesFolder(), localTimeNow());
     if (!file) return file;
     if (const Result<void> written = writeScreenshot(picture, *file, note); !written) {
         std::error_code status;
@@ -89,21 +80,7 @@ Result<ScreenshotNote> readScreenshotNote(const fs::path& file) {
 }
 
 Result<fs::path> newScreenshotFile(const fs::path& folder, const std::tm& localTime) {
-    const std::string name = fmt::format("worldy {:%Y-%m-%d %H.%M.%S}", localTime);
-    for (int number = 1; number <= mostOfASecond; ++number) {
-        const fs::path file = folder / (number == 1 ? name + ".png" : fmt::format("{} {}.png", name, number));
-        const int descriptor = ::open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-        if (descriptor >= 0) {
-            ::close(descriptor);
-            return file;
-        }
-        if (errno != EEXIST) {
-            return planet::ioError(fmt::format("{}: cannot be written: {}; expected a writable folder",
-                                               folder.string(), std::strerror(errno)));
-        }
-    }
-    return planet::ioError(fmt::format("{}: already contains {} screenshots of this second; expected fewer",
-                                       folder.string(), mostOfASecond));
+    return newTimedFile(folder, localTime, "", "png");
 }
 
 bool isPng(const fs::path& file) {

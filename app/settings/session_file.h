@@ -1,4 +1,4 @@
-// What the window goes on with at its next start without a file. The layout and all settings are in the settings file.
+// The window goes on with this at its next start without a file. The layout and all settings are in the settings file.
 //
 //     file = "/terrain/alps.tif"                          # the planet that was shown
 //     camera = "46.4,6.9,6000,180,-10"                     # latitude, longitude, altitude in metres, heading, pitch

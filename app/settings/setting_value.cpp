@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <sstream>
 
 #include "app/base/colour_text.h"
+#include "app/base/edit_distance.h"
 #include "app/base/toml_file.h"
 #include "app/base/utf8.h"
 #include "app/settings/layer_file.h"
+#include "app/settings/panel_text.h"
 
 namespace worldy {
 
@@ -93,6 +94,13 @@ struct ReadField {
         });
     }
 
+    Result<void> operator()(const TabOrder& order) const {
+        return panelOrderFromToml(file, name, node).map([&](const PanelOrder& read) { *order.value = read; });
+    }
+    Result<void> operator()(const FloatingPanels& floating) const {
+        return floatingPanelsFromToml(file, name, node, *floating.value);
+    }
+
     Result<void> readStop(const toml::node& stop, std::vector<planet::gl::RampStop>& stops) const {
         const std::string stopName = fmt::format("{}: stop {}", name, stops.size() + 1);
         const toml::table* table = stop.as_table();
@@ -153,6 +161,10 @@ struct FieldText {
             text += fmt::format("{}{}{}", text.empty() ? "" : ",", lineBreak, layerLine(layer));
         return layers.value->empty() ? "[]" : fmt::format("[{}{}]", text, lineEnd);
     }
+    std::string operator()(const TabOrder& order) const { return panelOrderText(*order.value); }
+    std::string operator()(const FloatingPanels& floating) const {
+        return floatingPanelsText(*floating.value, lineBreak, lineEnd);
+    }
     std::string operator()(const Choice& choice) const {
         return fmt::format("\"{}\"", choice.names[*choice.value]);
     }
@@ -174,26 +186,14 @@ struct AllowedText {
     std::string operator()(const LayerStack&) const {
         return fmt::format("at most {} layers", planet::maxLayers);
     }
+    std::string operator()(const TabOrder&) const { return "keys of panels"; }
+    std::string operator()(const FloatingPanels&) const {
+        return "tables { panel = \"chunk\", x = 0.5, y = 0.3, width = 380, height = 420 }";
+    }
     std::string operator()(const Choice& choice) const {
         return fmt::format("one of {}", fmt::join(choice.names, ", "));
     }
 };
-
-// Returns Levenshtein's distance, the number of letters that differ.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t above = row[j + 1];
-            row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row.back();
-}
 
 std::string_view withoutSpaces(std::string_view text) {
     const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
@@ -263,9 +263,11 @@ std::string allowedText(const Field& field) {
 std::string summaryOf(const Field& field) {
     const Field& defaults = defaultOf(field);
     const Text* text = std::get_if<Text>(&defaults.value);
-    // A layer stack is too long for a line.
+    // A layer stack and the order of all tabs are too long for a line.
     const bool layers = std::holds_alternative<LayerStack>(field.value);
+    const bool order = std::holds_alternative<TabOrder>(field.value);
     const std::string value = layers                         ? "the built-in layers"
+                              : order                        ? "the order of the View menu"
                               : text && text->value->empty() ? "empty"
                                                              : plainText(defaults);
     const bool list = std::holds_alternative<Choice>(field.value);

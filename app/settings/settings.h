@@ -33,6 +33,7 @@ inline constexpr std::array<std::string_view, 3> featureUseNames = {"automatic",
 inline constexpr std::array<std::string_view, 3> layerPreviewNames = {"off", "heat", "mask"};
 inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
 inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "bottom"};
+inline constexpr std::array<std::string_view, 4> maximisedDockNames = {"none", "left", "right", "bottom"};
 
 struct Settings {
     std::string dataSet;

@@ -183,7 +183,7 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "tolerance, δc the geometric error in metres, age the time since loading, and measured the last "
           "measured error (True error panel) relative to the tolerance. Leaf depth is the level of the "
           "deepest leaf under a chunk, sample spacing the distance of the samples there, and source the "
-          "topmost layer of the source that has a height in the middle of the chunk. F8 cycles through them.",
+          "topmost layer of the source that has a height in the middle of the chunk.",
           Choice{asByte(overlay.colourBy), colourByNames, colourByLabels}},
          {"overlay", "opacity", "Opacity",
           "Opacity of the tint. Smaller: more of the ground shows, but colours are harder to tell apart. At "
@@ -206,7 +206,7 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "descendants. Slow with thousands of chunks.",
           Flag{&overlay.bounds}},
          {"overlay", "wireframe", "Wireframe",
-          "Draws the mesh edges over a dimmed surface (F1). Triangles smaller than about three pixels appear "
+          "Draws the mesh edges over a dimmed surface. Triangles smaller than about three pixels appear "
           "as uniform grey.",
           Flag{&overlay.wireframe}},
          {"overlay", "skirt_paint", "Skirts",
@@ -219,7 +219,7 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "few tenths of a millisecond per frame.",
           Choice{asByte(overlay.labels), chunkLabelsNames, chunkLabelsLabels}},
          {"overlay", "cube", "Unprojected cube",
-          "Draws the cube before it is projected onto the sphere (F4). LOD selection still uses the sphere, "
+          "Draws the cube before it is projected onto the sphere. LOD selection still uses the sphere, "
           "so screen-space errors do not apply to this picture.",
           Flag{&overlay.cube}},
          {"overlay", "clipmap", "Clipmap",
@@ -230,7 +230,12 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
          {"overlay", "sources", "Source outlines",
           "Draws what each layer of the source covers, on the planet and on the net of the Quadtree panel, "
           "in the layer's colour of the Sources panel. A layer that covers the planet has no outline.",
-          Flag{&overlay.sources}}});
+          Flag{&overlay.sources}},
+         {"overlay", "notes", "Note pins",
+          "Draws a pin with its first words where a note lies. A click opens the note. Off: the notes stay "
+          "in the Notes "
+          "panel.",
+          Flag{&overlay.notes}}});
 }
 
 constexpr std::array<std::string_view, 2> surfaceLabels = {"image", "height ramp"};
@@ -577,6 +582,19 @@ void addPanels(Fields& fields, Workspace& workspace) {
             {"panels", panelInfos[i].key, texts.label, texts.help, Choice{asByte(place.dock), dockNames}});
         fields.push_back({"panels", texts.shownKey, texts.shownLabel, texts.shownHelp, Flag{&place.shown}});
     }
+    fields.push_back({"panels", "maximised", "Maximised dock",
+                      "Dock that fills the window between the menu bar and the status bar.",
+                      Choice{asByte(workspace.maximised), maximisedDockNames}});
+    fields.push_back(
+        {"panels", "order", "Order of the tabs",
+         "Order of the tabs in all docks, as keys of panels. Panels that are not listed follow in "
+         "their default order.",
+         TabOrder{&workspace.order}});
+    fields.push_back(
+        {"panels", "floating", "Floating panels",
+         "Panels in windows of their own. x and y are shares of the free room: 0 is the left or "
+         "the top, 1 the right or the bottom. Width and height are in units that follow the font.",
+         FloatingPanels{&workspace.panels}});
 }
 
 void addCracks(Fields& fields, CrackSettings& cracks) {
@@ -600,8 +618,8 @@ void addCompare(Fields& fields, CompareSettings& compare) {
         fields.end(),
         {{"compare", "mode", "Show",
           "How the pictures A and B are shown. Side by side: the middle half of each picture at the same "
-          "pixel size. Wipe: a movable divider. Difference: colour difference. Flip: one picture, F9 "
-          "switches.",
+          "pixel size. Wipe: a movable divider. Difference: colour difference. Flip: one picture "
+          "at a time.",
           Choice{asByte(compare.mode), compareModeNames}, "Compare: show"},
          {"compare", "gain", "Gain",
           "Factor applied to the difference of each channel. 255: any difference is full brightness.",
@@ -610,8 +628,7 @@ void addCompare(Fields& fields, CompareSettings& compare) {
           "Position of the divider as a fraction of the width, with A on the left and B on the right. You "
           "can also drag it in the viewport.",
           Number{&compare.wipe, {0, 1, ""}}},
-         {"compare", "show_b", "Show B (F9)", "Shows B in flip mode. Off: shows A.", Flag{&compare.showB},
-          "Show B"}});
+         {"compare", "show_b", "Show B", "Shows B in flip mode. Off: shows A.", Flag{&compare.showB}}});
 }
 
 void addViewSettings(Fields& fields, ViewSettings& view) {
@@ -628,7 +645,7 @@ void addViewSettings(Fields& fields, ViewSettings& view) {
 }
 
 // The size of the largest list, so that it is allocated once.
-constexpr std::size_t fieldCount = 117 + 2 * panelCount + dockCount;
+constexpr std::size_t fieldCount = 120 + 2 * panelCount + dockCount;
 
 }  // namespace
 
@@ -689,6 +706,12 @@ bool isViewTable(std::string_view table) {
     return table != "data" && table != "camera" && table != "window" && table != "panels";
 }
 
+bool isLayoutField(const Field& field) {
+    if (field.table == "panels") return true;
+    return field.table == "window" &&
+           (field.key == "left_width" || field.key == "right_width" || field.key == "bottom_height");
+}
+
 const Field* findField(std::span<const Field> fields, std::string_view name) {
     const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
         const std::size_t dot = field.table.size();
@@ -717,7 +740,17 @@ std::string choiceLabel(const Choice& choice, std::size_t index) {
 void copyValue(const Field& from, const Field& to) {
     std::visit(
         [&](const auto& target) {
-            *target.value = *std::get<std::decay_t<decltype(target)>>(from.value).value;
+            using Kind = std::decay_t<decltype(target)>;
+            const auto& source = *std::get<Kind>(from.value).value;
+            if constexpr (std::is_same_v<Kind, FloatingPanels>) {
+                // The docks in the same array are settings of their own.
+                for (std::size_t i = 0; i < panelCount; ++i) {
+                    (*target.value)[i].floats = source[i].floats;
+                    (*target.value)[i].floating = source[i].floating;
+                }
+            } else {
+                *target.value = source;
+            }
         },
         to.value);
 }

@@ -44,6 +44,14 @@ struct Ramp {
 struct LayerStack {
     std::vector<planet::TextureLayer>* value;
 };
+// The order of the tabs: the panels' keys.
+struct TabOrder {
+    PanelOrder* value;
+};
+// The panels that float, with their places. Reading it leaves the docks as they are.
+struct FloatingPanels {
+    std::array<PanelPlace, panelCount>* value;
+};
 // An enumerator, stored as its index in the names.
 struct Choice {
     std::uint8_t* value;
@@ -57,7 +65,7 @@ struct Field {
     std::string_view key;
     std::string_view label;  // of its control
     std::string_view help;   // full sentences; the first says what the setting is
-    std::variant<Number, Integer, Seed, Flag, Text, Ramp, LayerStack, Choice> value;
+    std::variant<Number, Integer, Seed, Flag, Text, Ramp, LayerStack, TabOrder, FloatingPanels, Choice> value;
     std::string_view title{};  // the label with its topic, for use without context; empty: the label
 
     std::string name() const;  // "lod.tau_px"
@@ -80,6 +88,10 @@ const NumberRange& rangeOf(std::string_view name);
 // Returns true for the tables of ViewSettings, which presets contain. The others describe the data set, the
 // camera and the window.
 bool isViewTable(std::string_view table);
+
+// Returns true for the settings that a layout contains: the docks and panels, but neither the size of the
+// window nor the theme and the scale.
+bool isLayoutField(const Field& field);
 
 // Returns the field of that name, or null.
 const Field* findField(std::span<const Field> fields, std::string_view name);

@@ -81,6 +81,22 @@ bool isViewField(const Field& field) {
     return isViewTable(field.table);
 }
 
+Result<Workspace> layoutOf(const fs::path& file, const toml::table& document) {
+    Settings settings;
+    const Result<std::vector<std::string>> names = readDocument(file, document, settings);
+    if (!names) return tl::unexpected(names.error());
+    const std::vector<Field> fields = fieldsOf(settings);
+    for (const std::string& name : *names) {
+        if (isLayoutField(*findField(fields, name))) continue;
+        return planet::badInput(
+            fmt::format("{}: {} is not part of a layout; expected the table panels, and the sizes of the "
+                        "docks in the table "
+                        "window",
+                        file.string(), name));
+    }
+    return settings.workspace;
+}
+
 Settings settingsWith(const ViewSettings& view) {
     Settings settings;
     settings.view = view;
@@ -188,6 +204,19 @@ std::vector<SettingDifference> differences(const ViewSettings& here, const ViewP
     return differencesIn(settingsWith(here), settingsWith(there.values), [&](const Field& field) {
         return std::find(there.names.begin(), there.names.end(), field.name()) != there.names.end();
     });
+}
+
+std::string layoutText(const Workspace& workspace) {
+    Settings settings;
+    settings.workspace = workspace;
+    std::vector<Field> fields = fieldsOf(settings);
+    std::erase_if(fields, [](const Field& field) { return !isLayoutField(field); });
+    return "# A layout of Worldy's window; keys not listed have their defaults.\n" + fieldsText(fields);
+}
+
+Result<Workspace> loadLayout(const fs::path& file) {
+    return parseTomlFile(file).and_then(
+        [&](const toml::table& document) { return layoutOf(file, document); });
 }
 
 Result<ViewSettings> loadViewSettings(const fs::path& file, const ViewSettings& now) {

@@ -63,6 +63,12 @@ ViewSettings applied(const ViewPart& part, const ViewSettings& now);
 // Returns the settings that applying the part would change.
 std::vector<SettingDifference> differences(const ViewSettings& here, const ViewPart& there);
 
+// Returns the layout of the window as TOML: the docks and panels (isLayoutField). Equal layouts give equal text.
+std::string layoutText(const Workspace& workspace);
+// Reads a layout's file. What it leaves out has its default. The Error names a setting that is no part of a
+// layout.
+planet::Result<Workspace> loadLayout(const std::filesystem::path& file);
+
 // Reads a preset's file and applies it to the settings `now`.
 planet::Result<ViewSettings> loadViewSettings(const std::filesystem::path& file,
                                               const ViewSettings& now = {});

@@ -66,6 +66,7 @@ struct OverlaySettings {
     bool cube = false;
     bool clipmap = false;
     bool sources = false;  // outlines of the layers of the source
+    bool notes = true;     // pins of the notes
 
     bool operator==(const OverlaySettings&) const = default;
 };

@@ -8,10 +8,31 @@
 
 namespace worldy {
 
+inline constexpr double leastFloatingWidth = 160;
+inline constexpr double leastFloatingHeight = 100;
+inline constexpr double mostFloatingSize = 2000;
+
+// The place of a floating panel in the area between the menu bar and the status bar. It lies inside that area
+// whatever the size of the window.
+struct FloatingPlace {
+    // Shares of the room that the panel's own size leaves, [0, 1]: 0 is the left or the top, 1 the right or
+    // the bottom.
+    double x = 0.5;
+    double y = 0.3;
+    // In units of Workspace, [leastFloatingWidth, mostFloatingSize] and [leastFloatingHeight, mostFloatingSize];
+    // less on screen if the area is smaller.
+    double width = 380;
+    double height = 420;
+
+    bool operator==(const FloatingPlace&) const = default;
+};
+
 // The dock of a panel, and whether it is shown.
 struct PanelPlace {
     Dock dock = Dock::Right;
     bool shown = true;
+    bool floats = false;  // in a window of its own, instead of the dock; it returns to the dock
+    FloatingPlace floating{};
 
     bool operator==(const PanelPlace&) const = default;
 };
@@ -22,7 +43,15 @@ constexpr std::array<PanelPlace, panelCount> firstPlaces() {
     return places;
 }
 
+using PanelOrder = std::array<PanelId, panelCount>;
+constexpr PanelOrder firstOrder() {
+    PanelOrder order{};
+    for (std::size_t i = 0; i < panelCount; ++i) order[i] = panelInfos[i].id;
+    return order;
+}
+
 enum class Theme : std::uint8_t { Dark, Light };
+enum class MaximisedDock : std::uint8_t { None, Left, Right, Bottom };
 
 // The layout of the window, kept between sessions. Sizes are in units of a 13 px font, so that they fit any
 // monitor.
@@ -31,8 +60,11 @@ struct Workspace {
     double rightWidth = 310;
     double bottomHeight = 210;
     std::array<PanelPlace, panelCount> panels = firstPlaces();
+    PanelOrder order = firstOrder();  // of the tabs, in every dock; each panel once
     // The panel that each dock shows; ignored if that panel is not docked there.
     std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging};
+    // The dock that fills the area between the menu bar and the status bar; ignored if it has no panel.
+    MaximisedDock maximised = MaximisedDock::None;
     Theme theme = Theme::Dark;
     double scale = 1;    // relative to the monitor's scale; Ctrl + and Ctrl -
     bool idle = true;    // draws frames only while something changes

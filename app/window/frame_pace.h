@@ -6,7 +6,7 @@
 
 namespace worldy {
 
-// What can make the next frame differ from the last one.
+// A reason for the next frame to differ from the last one.
 enum class Activity : std::uint8_t {
     None,
     Background,  // work whose progress is shown

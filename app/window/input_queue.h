@@ -20,7 +20,7 @@ struct InputEvent {
     int scancode = 0;
     int modifiers = 0;         // GLFW's
     glm::dvec2 pointer{0, 0};  // for a button: the pointer's position in window coordinates
-    double atS = 0;            // for a key: time of the event, seconds on any clock
+    double atS = 0;            // for a key or button: time of the event, seconds on any clock
 };
 
 class InputQueue {

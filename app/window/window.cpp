@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "app/base/stopwatch.h"
 #include "app/window/input_queue.h"
 #include "ui/kit/theme.h"
+#include "ui/shell/text_scale.h"
 
 namespace worldy {
 
@@ -75,6 +77,16 @@ struct Window::Glfw {
     GLFWwindow* besides = nullptr;  // never shown; its context shares the window's objects
     InputQueue input;
     std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in this frame
+    std::array<double, GLFW_MOUSE_BUTTON_LAST + 1> pressedAtS = neverPressed();
+    std::optional<std::size_t> pressedTwice;  // the button of a double click in this frame
+
+    static constexpr std::array<double, GLFW_MOUSE_BUTTON_LAST + 1> neverPressed() {
+        std::array<double, GLFW_MOUSE_BUTTON_LAST + 1> times{};
+        times.fill(-1e9);
+        return times;
+    }
+    // Notes a press. Two presses in short succession are a double click, however long the frames between them take.
+    void notePress(std::size_t button, double atS);
     std::vector<KeyPress> pressedKeys;
     std::vector<std::filesystem::path> droppedFiles;
     bool hasInput = false;  // since the last frame began
@@ -94,6 +106,14 @@ struct Window::Glfw {
 };
 
 namespace {
+
+// With Ctrl, these keys move the focus and the tabs (ui/shell/actions.cpp). ImGui would list its windows, and
+// scroll.
+bool isCommandOnly(const InputEvent& event) {
+    const bool moves =
+        event.code == GLFW_KEY_TAB || event.code == GLFW_KEY_PAGE_UP || event.code == GLFW_KEY_PAGE_DOWN;
+    return moves && (event.modifiers & GLFW_MOD_CONTROL) != 0;
+}
 
 int glfwAction(InputKind kind) {
     if (kind == InputKind::KeyRepeat) return GLFW_REPEAT;
@@ -117,7 +137,7 @@ void Window::Glfw::listen() {
         glfwGetCursorPos(handle, &pointer.x, &pointer.y);
         const InputKind kind = action == GLFW_PRESS ? InputKind::ButtonDown : InputKind::ButtonUp;
         of(handle).hasInput = true;
-        of(handle).input.add({kind, button, 0, modifiers, pointer});
+        of(handle).input.add({kind, button, 0, modifiers, pointer, glfwGetTime()});
     });
     glfwSetCharCallback(window, [](GLFWwindow* handle, unsigned int letter) {
         of(handle).hasInput = true;
@@ -154,7 +174,15 @@ void Window::Glfw::listenForChanges() {
     glfwSetWindowCloseCallback(window, [](GLFWwindow* handle) { of(handle).hasInput = true; });
 }
 
+void Window::Glfw::notePress(std::size_t button, double atS) {
+    const double since = atS - std::exchange(pressedAtS.at(button), atS);
+    if (since > static_cast<double>(ImGui::GetIO().MouseDoubleClickTime)) return;
+    pressedTwice = button;
+    pressedAtS.at(button) = -1e9;  // a third press is no second double click
+}
+
 std::optional<glm::dvec2> Window::Glfw::giveInput() {
+    pressedTwice.reset();
     std::optional<glm::dvec2> pointer;
     // The field may have lost focus in the last frame, which WantTextInput reports one frame late.
     const bool textFieldIsEdited = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
@@ -166,11 +194,14 @@ std::optional<glm::dvec2> Window::Glfw::giveInput() {
             case InputKind::ButtonDown:
             case InputKind::ButtonUp:
                 pointer = event.pointer;
+                if (event.kind == InputKind::ButtonDown)
+                    notePress(static_cast<std::size_t>(event.code), event.atS);
                 buttonsDown.at(static_cast<std::size_t>(event.code)) = event.kind == InputKind::ButtonDown;
                 break;
             case InputKind::KeyDown:
             case InputKind::KeyRepeat:
                 pressedKeys.push_back({event.code, event.modifiers});
+                if (isCommandOnly(event)) break;
                 [[fallthrough]];
             case InputKind::KeyUp:
                 ImGui_ImplGlfw_KeyCallback(window, event.code, event.scancode, glfwAction(event.kind),
@@ -229,8 +260,11 @@ void Window::startImGui(const WindowConfig& config) {
     imguiStarted_ = true;
     imguiFile_ = config.imguiFile.string();
     ImGui::GetIO().IniFilename = imguiFile_.c_str();
+    // Dragging in a plot of a floating panel must not move the panel.
+    ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
     // Otherwise ImGui frees tables of hidden panels, which come back a frame too narrow.
     ImGui::GetIO().ConfigMemoryCompactTimer = -1;
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
     glfw_->listen();
     ImGui_ImplOpenGL3_Init("#version 330 core");
@@ -239,7 +273,13 @@ void Window::startImGui(const WindowConfig& config) {
 }
 
 void Window::setTheme(Theme theme, double scale) {
-    const float wanted = contentScale() * static_cast<float>(scale);
+    const float monitor = contentScale();
+    const double fitting = ui::fittingScale(scale, width(), height(), ui::baseFontPx * monitor);
+    ui::setShownTextScale(fitting);
+    // Fonts come in whole pixels. Other sizes in between would load it again all the time while a window is resized.
+    const float wanted =
+        fitting < scale ? std::floor(ui::baseFontPx * monitor * static_cast<float>(fitting)) / ui::baseFontPx
+                        : monitor * static_cast<float>(scale);
     if (theme == theme_ && wanted == appliedScale_) return;
     const bool first = appliedScale_ == 0;  // the first frame creates the font's texture itself
     theme_ = theme;
@@ -302,6 +342,9 @@ void Window::beginFrame(double waitS) const {
     ImGuiIO& io = ImGui::GetIO();
     std::copy_n(glfw_->buttonsDown.begin(), std::size(io.MouseDown), std::begin(io.MouseDown));
     if (pointer) io.MousePos = {static_cast<float>(pointer->x), static_cast<float>(pointer->y)};
+    // ImGui measures the time between two presses in frames, of which a slow one would part them.
+    if (const auto twice = glfw_->pressedTwice; twice && *twice < std::size(io.MouseClickedTime))
+        io.MouseClickedTime[*twice] = ImGui::GetTime() + static_cast<double>(io.DeltaTime);
     ImGui::NewFrame();
 }
 
@@ -328,6 +371,11 @@ void Window::endFrame(const std::function<void()>& drawn) {
 
 const std::vector<KeyPress>& Window::pressedKeys() const {
     return glfw_->pressedKeys;
+}
+
+void Window::pressMouse(glm::dvec2 at, int button) const {
+    for (const InputKind kind : {InputKind::ButtonDown, InputKind::ButtonUp})
+        glfw_->input.add({.kind = kind, .code = button, .pointer = at});
 }
 
 std::size_t Window::queuedInput() const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,6 +63,9 @@ public:
     // Returns the keys pressed or repeated in this frame, the same that ImGui sees. Input is handed out frame
     // by frame (app/window/input_queue.h), so a key released before a slow frame begins is not lost.
     const std::vector<KeyPress>& pressedKeys() const;
+    // Presses and releases a mouse button of ImGui's at a place in the next two frames. The pointer stays where
+    // it is otherwise.
+    void pressMouse(glm::dvec2 at, int button) const;
     // Returns the number of key and button events that wait for the next frames.
     std::size_t queuedInput() const;
     // Returns the files dropped onto the window since the last frame.

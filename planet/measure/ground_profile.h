@@ -14,7 +14,7 @@
 
 namespace planet {
 
-// What a profile is measured on, independent of the planet's later steps.
+// The ground that a profile is measured on, independent of the planet's later steps.
 struct ProfileGround {
     DrawnSnapshot drawn;
     std::array<HeldChunk, faceCount> roots;  // in face order; for places where no chunk is drawn
@@ -43,7 +43,7 @@ Result<GroundProfile> groundProfile(const ProfileGround& ground, FinestHeights& 
                                     const glm::dvec3& from, const glm::dvec3& to, int count,
                                     const std::function<bool()>& goOn = {});
 
-// What follows from a profile. Lengths are metres; slopes are in radians, positive upwards along the way.
+// Figures of a profile. Lengths are in metres; slopes are in radians, positive upwards along the way.
 struct ProfileSummary {
     double arcM = 0;         // along the great circle at the planet's radius
     double straightM = 0;    // between the two ends in space

@@ -367,6 +367,28 @@ void traces(const fs::path& folder) {
     write(folder / "content", traceContent(read(file)));
 }
 
+void notes(const fs::path& folder) {
+    const std::string text = R"(format = 1
+
+[[note]]
+id = 1
+text = "The ridge \"pops\"\nhere"
+about = "pops"
+created = "2026-11-26 16:50"
+chunk = "y_pos/4/6/13"
+measurement = "jump 1.2 px"
+latitude_deg = 27.988
+longitude_deg = 86.925
+height_m = 8848.5
+camera_latitude_deg = 27.5
+camera_longitude_deg = 86.5
+camera_altitude_m = 12000
+camera_heading_deg = 12.5
+camera_pitch_deg = -20
+)";
+    write(folder / "one.toml", text);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -380,6 +402,7 @@ int main(int argc, char** argv) {
     settingsFiles(folder / "settings");
     copyToml(data / "layers", folder / "layer_set");
     copyToml(data / "flights", folder / "flight_path");
+    notes(folder / "notes");
     recordedFlights(folder / "flight_record");
     rawFaces(folder / "raw_faces");
     rasters(folder / "raster");

@@ -71,10 +71,11 @@ key() { xdotool key --clearmodifiers "$@"; frames; }
 type_over() { key ctrl+a; xdotool type --delay 20 -- "$1"; frames; key Return; }
 enter() { click "$1" && type_over "$2"; }
 # A middle part of a picture, without what is written at its borders.
-picture() { set -- $(place "$1"); import -window root -crop "$(($3 * 6 / 10))x$(($4 * 4 / 10))+$(($1 + $3 * 2 / 10))+$(($2 + $4 * 3 / 10))" +repage -depth 8 rgb:- | md5sum; }
+picture() { set -- $(place "$1"); [ $# -eq 4 ] || { echo hidden; return; }; import -window root -crop "$(($3 * 6 / 10))x$(($4 * 4 / 10))+$(($1 + $3 * 2 / 10))+$(($2 + $4 * 3 / 10))" +repage -depth 8 rgb:- | md5sum; }
 viewport() { picture viewport/picture; }
 differs() { [ "$(viewport)" != "$1" ]; }
 same() { [ "$(viewport)" = "$1" ]; }
+is_open() { [ -n "$(counter file)" ]; }
 loaded() { counts queued -eq 0 && counts loading -eq 0 && counts stand_in -eq 0; }
 still() { set -- "$(viewport)"; frames 4; [ "$1" = "$(viewport)" ]; }
 settled() { loaded && still; }
@@ -112,7 +113,7 @@ inline Ran runInWindow(const TemporaryFolder& folder, const std::string& argumen
     return runOnDisplay(folder,
                         "'" WORLDY_BINARY "' --item-map items.txt " + arguments +
                             " &\nworldy=$!\n"
-                            "until_true shown viewport/picture || echo 'the planet is not shown'\n"
+                            "until_true is_open || echo 'the planet is not open'\n"
                             // Off the planet, where it would light a chunk.
                             "xdotool mousemove 600 5\nsettle\n" +
                             steps + "\nxdotool key --clearmodifiers ctrl+q\nwait $worldy\n",

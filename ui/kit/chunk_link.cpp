@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "ui/kit/filter_box.h"
+
 namespace worldy::ui {
 
 namespace {
@@ -12,6 +14,7 @@ namespace {
 void link(const planet::ChunkId& chunk, const planet::ChunkId& square, bool lit, Commands& commands,
           ImGuiSelectableFlags flags) {
     const std::string name = planet::toString(square);
+    highlightHits(name);
     if (ImGui::Selectable(name.c_str(), lit, flags | ImGuiSelectableFlags_AllowDoubleClick)) {
         commands.push_back(SelectChunk{chunk});
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) commands.push_back(LookAtChunk{square});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ui/kit/widgets.h"
 
@@ -26,9 +27,27 @@ float roomFor(std::span<const Column> columns) {
     return ImGui::GetContentRegionAvail().x - gaps * gapWidth();
 }
 
-// Returns the width that the column needs, pixels, with room for its own scrollbar.
+// Returns a width with room for the column's own scrollbar, pixels; 0 if any width is enough.
+float withScrollbar(float width) {
+    return width > 0 ? std::ceil(width + ImGui::GetStyle().ScrollbarSize) : 0;
+}
+
 float neededWidth(const Column& column) {
-    return column.needed > 0 ? std::ceil(column.needed + ImGui::GetStyle().ScrollbarSize) : 0;
+    return withScrollbar(column.needed);
+}
+
+float wantedWidth(const Column& column) {
+    return std::max(neededWidth(column), withScrollbar(column.wanted));
+}
+
+// Returns the least width of each column: the wanted one if all of them fit, otherwise the needed one.
+std::vector<float> leastWidths(std::span<const Column> columns, float width) {
+    std::vector<float> wanted, needed;
+    for (const Column& column : columns) {
+        wanted.push_back(wantedWidth(column));
+        needed.push_back(neededWidth(column));
+    }
+    return std::accumulate(wanted.begin(), wanted.end(), 0.0f) <= width ? wanted : needed;
 }
 
 void drawSideBySide(std::span<const Column> columns) {
@@ -66,6 +85,7 @@ bool hasWideRoom(std::span<const Column> columns) {
 
 std::vector<float> sideBySideWidths(std::span<const Column> columns, float width) {
     std::vector<float> widths(columns.size(), 0);
+    const std::vector<float> least = leastWidths(columns, width);
     // Columns that need more than their share take it from the others, which may make others fall short.
     std::vector<bool> atNeed(columns.size(), false);
     for (bool changed = true; changed;) {
@@ -80,8 +100,8 @@ std::vector<float> sideBySideWidths(std::span<const Column> columns, float width
         for (std::size_t i = 0; i < columns.size(); ++i) {
             if (atNeed[i]) continue;
             widths[i] = std::max(left, 0.0f) * columns[i].share / shares;
-            if (widths[i] >= neededWidth(columns[i])) continue;
-            widths[i] = neededWidth(columns[i]);
+            if (widths[i] >= least[i]) continue;
+            widths[i] = least[i];
             atNeed[i] = changed = true;
         }
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/base/plot_scale.h"
+#include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -124,6 +125,36 @@ void drawLabels(const ChartScale& scale, const FrontChart& chart) {
     }
 }
 
+std::string seriesName(const FrontChart& chart, std::size_t point) {
+    for (const FrontSeries& series : chart.series) {
+        if (std::find(series.points.begin(), series.points.end(), point) != series.points.end())
+            return series.name;
+    }
+    return {};
+}
+
+ExportTable samplesOf(const FrontChart& chart) {
+    ExportTable table{.name = chart.name,
+                      .columns = {{"series"}, {"label"}, {"error_px"}, {chart.costName}, {"on_front"}},
+                      .rows = chart.points.size()};
+    table.cell = [&](std::size_t row, std::size_t column) -> ExportCell {
+        const FrontPoint& point = chart.points[row];
+        switch (column) {
+            case 0:
+                return seriesName(chart, row);
+            case 1:
+                return point.label;
+            case 2:
+                return point.errorPx;
+            case 3:
+                return point.cost;
+            default:
+                return point.onFront;
+        }
+    };
+    return table;
+}
+
 std::optional<std::size_t> nearestToPointer(const ChartScale& scale, std::span<const FrontPoint> points) {
     if (!ImGui::IsItemHovered()) return std::nullopt;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -196,6 +227,7 @@ std::optional<std::size_t> frontChart(const FrontChart& chart, std::optional<std
         const ImVec2 at = scale.at(chart.points[i]);
         noteRect(fmt::format("Point {}", i), {at.x - 2, at.y - 2, 4, 4});
     }
+    exportPlot("chart", samplesOf(chart));
     const std::optional<std::size_t> nearest = nearestToPointer(scale, chart.points);
     if (nearest) {
         ImGui::BeginTooltip();

@@ -28,6 +28,8 @@ struct FrontSeries {
 };
 
 struct FrontChart {
+    const char* name = "chart";  // part of the names of exported files
+    const char* costName = "cost";
     std::span<const FrontPoint> points;
     std::span<const FrontSeries> series;      // each point belongs to one
     const char* errorName = "";               // of the horizontal axis, with its unit

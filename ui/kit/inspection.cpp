@@ -8,6 +8,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -67,7 +68,8 @@ void inspectionNotice(const EditorView& view, const Rect& viewport, Commands& co
         commands.push_back(EndInspection{});
     if (!view.recording.replay) {
         ImGui::SameLine();
-        if (button("Unfreeze here", "Keeps the camera here. LOD follows it from now on (F2)."))
+        if (button("Unfreeze here",
+                   withKey("Keeps the camera here. LOD follows it from now on.", "freeze_lod").c_str()))
             commands.push_back(FreezeLod{false});
     }
     ImGui::End();

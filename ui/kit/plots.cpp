@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/base/plot_scale.h"
+#include "ui/kit/exports.h"
 #include "ui/kit/theme.h"
 
 namespace worldy::ui {
@@ -28,6 +29,13 @@ struct Area {
 
 ImU32 faded(const ImVec4& colour, float alpha) {
     return ImGui::GetColorU32(ImVec4(colour.x, colour.y, colour.z, colour.w * alpha));
+}
+
+// Returns "queued" or, with a unit, "read_mb_per_s".
+std::string columnName(std::string_view name, std::string_view unit) {
+    std::string column(name);
+    if (!unit.empty()) column += fmt::format(" ({})", unit);
+    return column;
 }
 
 // Reserves the plot's area as an item that can be hovered.
@@ -75,10 +83,15 @@ void legend(std::span<const Series> series, const char* unit, bool withValues) {
         if (i > 0 && ImGui::GetItemRectMax().x + gap + width < right) ImGui::SameLine(0, gap);
         swatch(series[i].colour);
         ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
+        ImGui::PushTextWrapPos(0);
         ImGui::TextUnformatted(series[i].name);
+        ImGui::PopTextWrapPos();
         ImGui::PopStyleColor();
         if (newest.empty()) continue;
-        ImGui::SameLine(0, ImGui::GetFontSize() * 0.3f);
+        // In a narrow dock the value stands below its name.
+        const float space = ImGui::GetFontSize() * 0.3f;
+        if (ImGui::GetItemRectMax().x + space + ImGui::CalcTextSize(newest.c_str()).x <= right)
+            ImGui::SameLine(0, space);
         ImGui::TextUnformatted(newest.c_str());
     }
 }
@@ -201,6 +214,18 @@ void pointerValues(const Scale& scale, std::span<const float> timesS, std::span<
     ImGui::EndTooltip();
 }
 
+// Returns one row per time, with the time before the newest sample in the first column.
+ExportTable lineSamples(const char* id, std::span<const float> timesS, std::span<const Series> series,
+                        const char* unit) {
+    ExportTable table{.name = id, .columns = {{"time_s"}}, .rows = timesS.size()};
+    for (const Series& one : series) table.columns.push_back({columnName(one.name, unit)});
+    table.cell = [=](std::size_t row, std::size_t column) -> ExportCell {
+        if (column == 0) return static_cast<double>(timesS[row]) - static_cast<double>(timesS.back());
+        return series[column - 1].values[row];
+    };
+    return table;
+}
+
 void nothingYet(const Area& area) {
     const char* text = "no data yet";
     const ImVec2 size = ImGui::CalcTextSize(text);
@@ -256,6 +281,7 @@ void linePlot(const char* id, std::span<const float> timesS, std::span<const Ser
     pointerValues(scale, timesS, series, unit, stacked);
     ImGui::PopClipRect();
     ImGui::EndGroup();
+    exportPlot(id, lineSamples(id, timesS, series, unit));
 }
 
 float leastPlotWidth() {
@@ -267,7 +293,7 @@ float linesThatFit(std::size_t plots, float otherLines, float most) {
     return std::clamp((lines - otherLines) / static_cast<float>(plots), 1.5f, most);
 }
 
-void barList(const char* id, std::span<const Bar> bars) {
+void barList(const char* id, std::span<const Bar> bars, const char* unit) {
     ImGui::BeginGroup();
     ImGui::PushID(id);
     double largest = 0;
@@ -303,6 +329,11 @@ void barList(const char* id, std::span<const Bar> bars) {
     ImGui::Dummy({width, std::max(static_cast<float>(bars.size()) * step, 1.0f)});
     ImGui::PopID();
     ImGui::EndGroup();
+    ExportTable table{.name = id, .columns = {{"bar"}, {columnName("value", unit)}}, .rows = bars.size()};
+    table.cell = [=](std::size_t row, std::size_t column) {
+        return column == 0 ? ExportCell(bars[row].label) : ExportCell(bars[row].value);
+    };
+    exportPlot(id, table);
 }
 
 namespace {
@@ -327,6 +358,17 @@ void drawMarks(const Area& area, std::span<const HistogramMark> marks) {
         textAt(at, palette().warning, mark.label);
         row += ImGui::GetTextLineHeight();
     }
+}
+
+// Returns one row per bucket: its range, as text with a unit or as share of the axis, and its count.
+ExportTable buckets(const char* id, std::span<const float> counts, const PositionText& positionText) {
+    ExportTable table{.name = id, .columns = {{"from"}, {"to"}, {"count"}}, .rows = counts.size()};
+    table.cell = [=](std::size_t row, std::size_t column) -> ExportCell {
+        if (column == 2) return counts[row];
+        const double position = static_cast<double>(row + column) / static_cast<double>(counts.size());
+        return positionText ? ExportCell(positionText(position)) : ExportCell(position);
+    };
+    return table;
 }
 
 void pointerBucket(const Area& area, std::span<const float> counts, const PositionText& positionText) {
@@ -378,6 +420,7 @@ void histogram(const char* id, std::span<const float> counts, const std::string&
     ImGui::TextUnformatted(rightLabel.c_str());
     ImGui::PopStyleColor();
     ImGui::EndGroup();
+    exportPlot(id, buckets(id, counts, positionText));
 }
 
 }  // namespace worldy::ui

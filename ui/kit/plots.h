@@ -1,5 +1,6 @@
 // Small plots, drawn as ImGui items that fill the available width. Heights are in lines of text. A tooltip()
-// after a plot belongs to the whole plot.
+// after a plot belongs to the whole plot. Each has a menu that copies and saves it (ui/kit/exports.h); its id is part of
+// the names of files.
 #pragma once
 
 #include <imgui.h>
@@ -37,8 +38,8 @@ struct Bar {
     ImVec4 colour{1, 1, 1, 1};
     std::string text;  // right of the bar
 };
-// Draws bars below each other, scaled to the largest value.
-void barList(const char* id, std::span<const Bar> bars);
+// Draws bars below each other, scaled to the largest value. unit: of the values, for their export.
+void barList(const char* id, std::span<const Bar> bars, const char* unit = "");
 
 // Returns the height for each of several plots stacked in the remaining height, in lines of text, if the
 // other content needs otherLines. The result is in [1.5, most].

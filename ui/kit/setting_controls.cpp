@@ -11,6 +11,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -73,6 +74,8 @@ struct Draw {
     bool operator()(const Text&) const { return noControl(); }
     bool operator()(const Ramp&) const { return noControl(); }
     bool operator()(const LayerStack&) const { return noControl(); }
+    bool operator()(const TabOrder&) const { return noControl(); }
+    bool operator()(const FloatingPanels&) const { return noControl(); }
     static bool noControl() {
         assert(false);
         return false;
@@ -80,7 +83,9 @@ struct Draw {
 };
 
 std::string tipOf(const Field& field, const std::string& help) {
-    return fmt::format("{}\n{}: {}.", help, field.name(), summaryOf(field));
+    const std::string key = keyOf(field.name());
+    return fmt::format("{}\n{}: {}.{}", help, field.name(), summaryOf(field),
+                       key.empty() ? "" : "\nKey: " + key);
 }
 
 }  // namespace
@@ -91,6 +96,10 @@ std::string settingTip(const Field& field) {
 
 void noteSetting(const Field& field) {
     if (collectsItems()) noteItem(field.name());
+}
+
+bool settingControl(const Field& field) {
+    return SettingControls::draw(field, {});
 }
 
 SettingControls::SettingControls(ViewSettings& settings) : fields_(fieldsOf(settings)) {}

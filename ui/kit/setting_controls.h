@@ -45,10 +45,13 @@ public:
 private:
     const Field& fieldOf(const void* value) const;
     static bool draw(const Field& field, const ControlChange& change);
+    friend bool settingControl(const Field& field);
 
     std::vector<Field> fields_;
 };
 
+// Draws the control of one setting, which is no text, ramp or layers. Returns true if the value has changed.
+bool settingControl(const Field& field);
 // Returns the text of a control's tooltip: the help, then the name, the allowed values and the default.
 std::string settingTip(const Field& field);
 // Notes the last item in the item map by the name of its setting, "lod/lod.tau_px".

@@ -27,7 +27,6 @@ void stateOf(const SourcesView& sources, Commands& commands) {
 
 void readingRow(const SourcesView& sources, const planet::SourceReading& reading, bool isTop) {
     const ImVec4& colour = isTop ? palette().text : palette().dim;
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float swatch = std::round(ImGui::GetFontSize() * 0.6f);
@@ -73,9 +72,22 @@ void sourceReadings(const char* id, const SourcesView& sources, const std::optio
     std::size_t lines = 1;  // the lines of a sample are a little apart
     for (const planet::SourceReading& reading : place->readings) lines += reading.file.empty() ? 1 : 2;
     if (beginListTable(id, columns, lines)) {
-        for (const planet::SourceReading& reading : place->readings)
-            readingRow(sources, reading, &reading == top);
-        ImGui::EndTable();
+        using Reading = planet::SourceReading;
+        const std::vector<Reading>& readings = place->readings;
+        for (std::size_t row = 0; row < readings.size(); ++row)
+            tableRow(row, [&] { readingRow(sources, readings[row], &readings[row] == top); });
+        const auto ifIn = [](const Reading& reading, std::int64_t value) {
+            return reading.file.empty() ? ExportCell() : ExportCell(value);
+        };
+        endTable(exportTable<Reading>(
+            "source", readings.size(), [&](std::size_t row) { return readings[row]; },
+            {{"layer", [&](const Reading& reading) { return sources.layers->layers[reading.layer].name; },
+              true},
+             {"height_m", [](const Reading& reading) { return reading.heightM; }},
+             {"weight", [](const Reading& reading) { return reading.weight; }},
+             {"file", [](const Reading& reading) { return reading.file.string(); }},
+             {"column", [=](const Reading& reading) { return ifIn(reading, reading.column); }},
+             {"row", [=](const Reading& reading) { return ifIn(reading, reading.row); }}}));
     }
     noteItem("Readings");
     if (!top)

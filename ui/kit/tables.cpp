@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
@@ -68,6 +69,7 @@ bool beginTable(const char* id, std::span<const TableColumn> columns, ImVec2 siz
     const float room = size.x > 0 ? size.x : ImGui::GetContentRegionAvail().x;
     const float width = std::max(room - ImGui::GetStyle().ScrollbarSize, tableWidth(columns));
     if (!ImGui::BeginTable(id, static_cast<int>(columns.size()), listFlags, size, width)) return false;
+    detail::beginRows();
     const float frozen = tableWidth(columns.first(static_cast<std::size_t>(frozenColumns)));
     header(columns, width, frozen <= room / 2 ? frozenColumns : 0);
     return true;
@@ -131,11 +133,13 @@ std::optional<TableSort> chosenSort() {
 
 void cell(const std::string& text) {
     ImGui::TableNextColumn();
+    highlightHits(text);
     ImGui::TextUnformatted(text.c_str());
 }
 
 void cell(const std::string& text, const ImVec4& colour) {
     ImGui::TableNextColumn();
+    highlightHits(text);
     ImGui::TextColored(colour, "%s", text.c_str());
 }
 

@@ -1,5 +1,6 @@
 // Tables of chunks, requests, level changes and the like. The header stays in view. Clicking a title sorts by
-// that column: ascending, then descending, then unsorted. End a table with ImGui::EndTable().
+// that column: ascending, then descending, then unsorted. End a table with endTable() of ui/kit/exports.h, which
+// lets the user copy and save it.
 #pragma once
 
 #include <imgui.h>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ui/kit/exports.h"
 #include "ui/kit/table_window.h"
 #include "ui/model/table_order.h"
 
@@ -60,21 +62,24 @@ void clipRows(std::size_t count, const DrawWindow& drawWindow) {
                    static_cast<std::size_t>(clipper.DisplayEnd));
 }
 
+}  // namespace detail
+
+// Begins a row, which has its own ids, and calls draw() for its cells. row: its number in the table's data.
 template <class DrawRow>
-void drawRow(std::size_t row, const DrawRow& draw) {
+void tableRow(std::size_t row, const DrawRow& draw) {
     ImGui::PushID(static_cast<int>(row));
     ImGui::TableNextRow();
+    detail::beginRow(row);
     draw();
+    detail::endRow();
     ImGui::PopID();
 }
-
-}  // namespace detail
 
 // Calls draw(row) for the visible rows; each is begun and has its own ids.
 template <class Draw>
 void tableRows(std::size_t count, const Draw& draw) {
     detail::clipRows(count, [&](std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) detail::drawRow(row, [&] { draw(row); });
+        for (std::size_t row = first; row < last; ++row) tableRow(row, [&] { draw(row); });
     });
 }
 
@@ -86,8 +91,9 @@ void tableRows(std::size_t count, const Key& key, const Draw& draw) {
     if (!sort) return tableRows(count, draw);
     const std::vector<std::size_t> order = tableOrder(count, sort, key);
     detail::clipRows(count, [&](std::size_t first, std::size_t last) {
-        for (std::size_t at = first; at < last; ++at) detail::drawRow(order[at], [&] { draw(order[at]); });
+        for (std::size_t at = first; at < last; ++at) tableRow(order[at], [&] { draw(order[at]); });
     });
+    detail::noteOrder(order);
 }
 
 // Sorts only the visible items by less, and calls draw(item, row) for them.
@@ -95,7 +101,7 @@ template <class T, class Less, class Draw>
 void sortedTableRows(std::vector<T>& items, const Less& less, const Draw& draw) {
     detail::clipRows(items.size(), [&](std::size_t first, std::size_t last) {
         sortWindow(items, first, last, less);
-        for (std::size_t row = first; row < last; ++row) detail::drawRow(row, [&] { draw(items[row], row); });
+        for (std::size_t row = first; row < last; ++row) tableRow(row, [&] { draw(items[row], row); });
     });
 }
 

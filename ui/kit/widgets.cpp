@@ -7,8 +7,10 @@
 #include <cmath>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/model/font_symbols.h"
@@ -24,6 +26,12 @@ constexpr float valueShare = 0.65f;
 
 // The reason of each open beginGrey(); empty if it does not grey. Global like ImGui's own stack.
 std::vector<std::string> greyReasons;
+
+// The names and values of the open list. Global like ImGui's own state of the frame.
+struct {
+    std::string id;
+    std::vector<std::pair<std::string, std::string>> rows;
+} shownValues;
 
 // Call after the control. Returns true if the user asks for the default.
 bool offerDefault(const char* label, bool isDefault, const std::string& defaultText) {
@@ -106,6 +114,14 @@ void tooltip(Tip tip) {
     ImGui::PopStyleVar();
 }
 
+void lateTooltip(const char* text) {
+    constexpr float restS = 1.2f;
+    float& restedS = *ImGui::GetStateStorage()->GetFloatRef(ImHashStr("rested", 0, ImGui::GetItemID()), 0);
+    const bool rests = ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown();
+    restedS = rests ? restedS + ImGui::GetIO().DeltaTime : 0;
+    if (restedS > restS) tooltip(text);
+}
+
 void beginGrey(bool grey, const char* why) {
     ImGui::BeginDisabled(grey);
     greyReasons.emplace_back(grey ? why : "");
@@ -118,6 +134,9 @@ void endGrey() {
 
 bool beginValues(const char* id) {
     if (!ImGui::BeginTable(id, 2)) return false;
+    shownValues.id = id;
+    shownValues.rows.clear();
+    detail::beginRows();
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed);
     return true;
@@ -125,6 +144,7 @@ bool beginValues(const char* id) {
 
 void valueRow(const char* name, const std::string& value, const char* explanation, const ImVec4* colour) {
     ImGui::TableNextRow();
+    noteValue(name, value);
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, palette().dim);
     ImGui::PushTextWrapPos(0);
@@ -146,8 +166,17 @@ void valueRow(const char* name, const std::string& value, const char* explanatio
     tooltip(explanation);
 }
 
+void noteValue(const char* name, const std::string& value) {
+    shownValues.rows.emplace_back(name, value);
+}
+
 void endValues() {
-    ImGui::EndTable();
+    ExportTable table{
+        .name = shownValues.id, .columns = {{"name"}, {"value"}}, .rows = shownValues.rows.size()};
+    table.cell = [](std::size_t row, std::size_t column) -> ExportCell {
+        return column == 0 ? shownValues.rows[row].first : shownValues.rows[row].second;
+    };
+    endTable(table);
 }
 
 void valueRows(const char* id, std::span<const ValueRow> rows) {
@@ -313,7 +342,9 @@ void emptyState(const char* text) {
 bool splitter(const char* id, const Rect& rect, bool upright, double& movedPx) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-    beginFixedWindow(id, rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground);
+    // Commands move the edges of docks by keys.
+    beginFixedWindow(id, rect,
+                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav);
     ImGui::InvisibleButton("bar", {rect.width, rect.height});
     const bool active = ImGui::IsItemActive();
     const bool lit = active || ImGui::IsItemHovered();

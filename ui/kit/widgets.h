@@ -38,16 +38,21 @@ private:
 
 // Shows the text while the last item is hovered.
 void tooltip(Tip tip);
+// Shows the text when the pointer has rested on the last item for a while with no button down. For items whose use is
+// mostly known, such as tabs.
+void lateTooltip(const char* text);
 
 // If grey, greys and disables the items until endGrey(). Their tooltips then begin with why, a sentence.
 // Calls may be nested: the outermost that greys shows its reason.
 void beginGrey(bool grey, const char* why);
 void endGrey();
 
-// Begins two columns: names on the left, values right-aligned. Call valueRow() between begin and end.
+// Begins two columns: names on the left, values right-aligned. Call valueRow() between begin and end. The list can be
+// copied and saved with the texts as shown.
 bool beginValues(const char* id);
 void valueRow(const char* name, const std::string& value, const char* explanation,
               const ImVec4* colour = nullptr);
+void noteValue(const char* name, const std::string& value);  // of a row that the caller draws itself
 void endValues();
 struct ValueRow {
     std::string name;

@@ -18,6 +18,7 @@
 #include "app/data/world_edit.h"
 #include "app/measure/pop_side.h"
 #include "app/measure/sweep_points.h"
+#include "app/notes/note.h"
 #include "app/settings/view_settings.h"
 #include "app/trace/trace_what_if_request.h"
 #include "planet/bake/bake.h"
@@ -25,6 +26,7 @@
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/view.h"
+#include "ui/model/layout.h"
 #include "ui/model/replay_controls.h"
 
 namespace worldy::ui {
@@ -139,18 +141,46 @@ struct LoadPreset {
 struct DeletePreset {
     std::string name;
 };
-using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset>;
+struct SaveLayout {  // of the panels
+    std::string name;
+    bool replaces = false;  // false: an existing layout is kept, and an error is shown
+};
+struct LoadLayout {
+    std::string name;
+};
+struct DeleteLayout {
+    std::string name;
+};
+struct NextLayout {};     // the default, the saved ones, and the panels before the last change of layout
+struct ResetLayout {};    // to the default
+struct RestoreLayout {};  // to the panels before the last change of layout, if they were not saved
+using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset, SaveLayout, LoadLayout,
+                                     DeleteLayout, NextLayout, ResetLayout, RestoreLayout>;
 
 // The window.
 struct CopyCommandLine {};
 struct CopyText {
     std::string text;
+    std::string done{};  // what the viewport confirms; empty: nothing
+};
+struct SaveExport {         // what a table or a plot shows, into a new file beside the screenshots
+    std::string name;       // part of the file's name
+    std::string extension;  // "csv"
+    std::string text;
+};
+struct SavePlotPicture {  // a part of the window, from this frame, as PNG
+    std::string name;
+    Rect rect;  // in the window
 };
 struct TakeScreenshot {
     bool withPanels = false;
 };
+struct WriteKeyFile {};  // with all commands and their default keys; an existing file is kept
+struct ReloadKeys {};
+struct SaveReport {};  // of the session, into a new folder beside the screenshots
 struct Quit {};
-using WindowCommand = std::variant<CopyCommandLine, CopyText, TakeScreenshot, Quit>;
+using WindowCommand = std::variant<CopyCommandLine, CopyText, SaveExport, SavePlotPicture, TakeScreenshot,
+                                   WriteKeyFile, ReloadKeys, SaveReport, Quit>;
 
 // Texture layers.
 struct LoadLayerSet {
@@ -306,10 +336,26 @@ using TraceCommand = std::variant<OpenTrace, AttachTrace, DetachTrace, CloseTrac
                                   PlayTrace, SelectTraceNode, SelectTraceView, ShowTraceOnPlanet, LookAsTrace,
                                   StartTraceWhatIf, CancelTraceWhatIf>;
 
+// Notes on the planet.
+struct AddNote {
+    Note note;
+};
+struct EditNote {
+    std::uint64_t id = 0;
+    std::string text;
+};
+struct DeleteNote {
+    std::uint64_t id = 0;
+};
+struct OpenNote {  // in the Notes panel
+    std::uint64_t id = 0;
+};
+using NoteCommand = std::variant<AddNote, EditNote, DeleteNote, OpenNote>;
+
 using FeatureCommand =
     std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand, BakeCommand,
                  SettingsCommand, WindowCommand, LayerCommand, InstrumentCommand, RecordingCommand,
-                 SweepCommand, CompareCommand, SourceCommand, TraceCommand>;
+                 SweepCommand, CompareCommand, SourceCommand, TraceCommand, NoteCommand>;
 
 // FeatureOf<Kind> is the variant that holds a kind of command: FeatureOf<SelectChunk> is ChunkCommand.
 template <class Kind, class Features>
@@ -344,6 +390,7 @@ public:
     Command(CompareCommand command);
     Command(SourceCommand command);
     Command(TraceCommand command);
+    Command(NoteCommand command);
     Command(Command&&) noexcept;
     Command& operator=(Command&&) noexcept;
     ~Command();

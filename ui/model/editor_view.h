@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/base/log_lines.h"
+#include "app/data/layout_library.h"
 #include "app/data/worlds.h"
 #include "app/scene/frame_stats.h"
 #include "app/scene/overlay_lines.h"
@@ -25,6 +26,7 @@
 #include "ui/model/errors_view.h"
 #include "ui/model/layers_view.h"
 #include "ui/model/light_view.h"
+#include "ui/model/notes_view.h"
 #include "ui/model/pops_view.h"
 #include "ui/model/probe_view.h"
 #include "ui/model/recording_view.h"
@@ -129,6 +131,8 @@ struct SettingsView {
     std::span<const PresetView> presets{};
     std::string undoName{};  // "Tolerance τ 2 -> 3 px"; empty: nothing to undo
     std::string redoName{};
+    std::span<const NamedLayout> layouts{};  // of the window
+    bool hasUnsavedLayout = false;           // for RestoreLayout
 };
 
 // Finished and running measurements of the planet.
@@ -163,6 +167,7 @@ struct EditorView {
     LayersView layers{};
     SourcesView sources{};
     TraceView trace{};
+    NotesView notes{};
 };
 
 }  // namespace worldy::ui

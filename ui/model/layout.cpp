@@ -10,15 +10,34 @@ namespace {
 constexpr float viewportShare = 0.36f;  // of the window that docks cannot take, in each direction
 
 bool holdsPanels(const Workspace& workspace, Dock dock) {
-    return std::any_of(workspace.panels.begin(), workspace.panels.end(),
-                       [&](const PanelPlace& place) { return place.shown && place.dock == dock; });
+    return std::any_of(workspace.panels.begin(), workspace.panels.end(), [&](const PanelPlace& place) {
+        return place.shown && !place.floats && place.dock == dock;
+    });
 }
 
 float sizeOf(const Workspace& workspace, Dock dock, double units, float unitPx) {
     return holdsPanels(workspace, dock) ? std::round(static_cast<float>(units) * unitPx) : 0;
 }
 
+void coverBy(Dock dock, Layout& layout) {
+    layout.docks = {};
+    layout.splitters = {};
+    layout.docks[static_cast<std::size_t>(dock)] = layout.area;
+    layout.viewportCovered = true;
+}
+
 }  // namespace
+
+std::optional<Dock> maximisedDock(const Workspace& workspace) {
+    if (workspace.maximised == MaximisedDock::None) return std::nullopt;
+    const auto dock = static_cast<Dock>(static_cast<int>(workspace.maximised) - 1);
+    return holdsPanels(workspace, dock) ? std::optional(dock) : std::nullopt;
+}
+
+double fittingScale(double scale, float windowWidth, float windowHeight, float fontPx) {
+    const float most = std::min(windowWidth / 45, windowHeight / 28) / fontPx;
+    return std::min(scale, std::max(static_cast<double>(most), 1.0));
+}
 
 Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspace, float menuHeight,
                 float statusHeight, float unitPx) {
@@ -57,6 +76,8 @@ Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspac
     splitter(Dock::Bottom) = {0, menuHeight + upper, bottomWidth, bottomBar};
     dock(Dock::Bottom) = {0, menuHeight + upper + bottomBar, bottomWidth, bottom};
     layout.statusBar = {0, menuHeight + height, width, statusHeight};
+    layout.area = {0, menuHeight, width, height};
+    if (const std::optional<Dock> maximised = maximisedDock(workspace)) coverBy(*maximised, layout);
     return layout;
 }
 

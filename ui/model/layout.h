@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "app/settings/workspace.h"
 
@@ -20,11 +21,23 @@ struct Layout {
     std::array<Rect, dockCount> splitters;  // on the side of the viewport
     Rect menuBar;
     Rect statusBar;
+    Rect area;  // between the menu bar and the status bar
+    // A maximised dock fills the area. The viewport keeps its rectangle, so that the size of the picture, and
+    // with it every reading in pixels, stays the same.
+    bool viewportCovered = false;
 };
 
-// Returns the layout. The viewport keeps at least a third of the window in each direction, whatever the sizes
+// Returns the dock that fills the area; none if no dock is maximised, or that dock has no panel.
+std::optional<Dock> maximisedDock(const Workspace& workspace);
+
+// Returns the layout. Floating panels take no room in it. The viewport keeps at least a third of the window in each direction, whatever the sizes
 // of the docks.
 Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspace, float menuHeight,
                 float statusHeight, float unitPx);
+
+// Returns the scale of text that a window can show: the user's, but at most one at which the window is 45 heights of
+// the font wide and 28 high, so that every panel keeps its shape. Never less than 1, the monitor's own scale, on
+// account of the window. fontPx: height of the font at scale 1, > 0.
+double fittingScale(double scale, float windowWidth, float windowHeight, float fontPx);
 
 }  // namespace worldy::ui

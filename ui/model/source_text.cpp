@@ -52,8 +52,7 @@ std::string stateText(const SourcesView& sources) {
     switch (sources.state) {
         case State::Unknown:
             return "The source of this planet is not known, because it was opened from a chunk file. Open "
-                   "its world "
-                   "file, image or rasters instead (Ctrl+O). A bake that exists is found again.";
+                   "its world file, image or rasters instead. A bake that exists is found again.";
         case State::Unread:
             return "The source has not been read yet.";
         case State::Reading:

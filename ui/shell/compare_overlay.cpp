@@ -11,6 +11,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -190,7 +191,8 @@ void compareOverlay(const CompareView& compare, const CompareSettings& shown, co
     if (shown.mode == CompareMode::Difference)
         return drawMiddleLabel(drawList, differenceText(compare, shown, viewport.width), palette().text,
                                viewport);
-    std::string name = sideNames(compare)[shown.showB ? 1 : 0] + "   F9: flip";
+    std::string name = sideNames(compare)[shown.showB ? 1 : 0] +
+                       (keyOf("flip_compared").empty() ? "" : "   " + keyOf("flip_compared") + ": flip");
     if (badgeSize(name).x > viewport.width) name = shown.showB ? "B" : "A";
     drawMiddleLabel(drawList, name, shown.showB ? palette().warning : palette().accent, viewport);
 }

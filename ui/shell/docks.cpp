@@ -1,13 +1,13 @@
 #include "ui/shell/docks.h"
 
-#include <imgui.h>
-
 #include <algorithm>
-#include <vector>
+#include <cmath>
 
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/shell/dock_drag.h"
+#include "ui/shell/floating_panels.h"
 
 namespace worldy::ui {
 
@@ -16,75 +16,84 @@ namespace {
 constexpr std::array<const char*, dockCount> dockNames = {"left dock", "right dock", "bottom dock"};
 constexpr std::array<const char*, dockCount> splitterNames = {"left splitter", "right splitter",
                                                               "bottom splitter"};
-constexpr std::array<const char*, dockCount> moveNames = {"Move to the left", "Move to the right",
-                                                          "Move to the bottom"};
 
 std::size_t indexOf(Dock dock) {
     return static_cast<std::size_t>(dock);
 }
 
-PanelPlace& placeOf(PanelId id, Workspace& workspace) {
-    return workspace.panels[static_cast<std::size_t>(id)];
-}
-
-std::vector<const PanelInfo*> panelsIn(Dock dock, Workspace& workspace) {
-    std::vector<const PanelInfo*> panels;
-    for (const PanelInfo& info : panelInfos) {
-        const PanelPlace& place = placeOf(info.id, workspace);
-        if (place.shown && place.dock == dock) panels.push_back(&info);
+// Draws one tab. Returns its rectangle.
+Rect tab(const PanelInfo& info, bool active, Dock dock, Workspace& workspace) {
+    ImGui::PushStyleColor(ImGuiCol_Button,
+                          ImGui::GetStyleColorVec4(active ? ImGuiCol_TabActive : ImGuiCol_Tab));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_TabHovered));
+    ImGui::PushStyleColor(ImGuiCol_Text, active ? palette().text : palette().dim);
+    if (ImGui::Button(info.title)) workspace.inFront[indexOf(dock)] = info.id;
+    noteItem(info.title);
+    ImGui::PopStyleColor(3);
+    const ImVec2 min = ImGui::GetItemRectMin();
+    const ImVec2 max = ImGui::GetItemRectMax();
+    if (active) {
+        ImGui::GetWindowDrawList()->AddRectFilled({min.x + 2, max.y - 2}, {max.x - 2, max.y},
+                                                  ImGui::GetColorU32(palette().accent));
     }
-    return panels;
+    return {min.x, min.y, max.x - min.x, max.y - min.y};
 }
 
-void tabMenu(const PanelInfo& info, Workspace& workspace) {
+// Reacts to the mouse on the tab that was drawn last.
+void obeyTab(const PanelInfo& info, const Rect& rect, Dock dock, const Layout& layout, DocksState& state,
+             Workspace& workspace) {
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        workspace.inFront[indexOf(dock)] = info.id;
+        toggleMaximised(dock, workspace);
+    }
+    if (!state.drag && ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
+        beginTabDrag(info.id, rect, layout, workspace, state);
+    if (!state.drag)
+        lateTooltip(layout.viewportCovered ? "Double-click it to restore the docks and the planet."
+                                           : "Drag it to move the panel, double-click it to maximise.");
     if (!ImGui::BeginPopupContextItem(info.title)) return;
-    PanelPlace& place = placeOf(info.id, workspace);
-    for (std::size_t dock = 0; dock < dockCount; ++dock) {
-        const bool here = indexOf(place.dock) == dock;
-        if (ImGui::MenuItem(moveNames[dock], nullptr, false, !here)) {
-            place.dock = static_cast<Dock>(dock);
-            workspace.inFront[dock] = info.id;
-        }
-        if (here) tooltip("The panel is already there.");
-    }
-    ImGui::Separator();
-    if (ImGui::MenuItem("Hide", info.shortcut)) place.shown = false;
+    panelMenu(info.id, workspace);
     ImGui::EndPopup();
 }
 
+// Draws the button that restores a maximised dock, at the right end of the tabs.
+void restoreButton(float end, Workspace& workspace) {
+    constexpr const char* label = "Restore";
+    const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (ImGui::GetItemRectMax().x + 2 + width <= end) ImGui::SameLine();
+    ImGui::SetCursorPosX(std::max(end - width - ImGui::GetWindowPos().x, ImGui::GetCursorPosX()));
+    if (button(label, "Restores the docks and the planet (Esc, or double-click a tab).")) {
+        workspace.maximised = MaximisedDock::None;
+    }
+}
+
 // Draws the tabs as buttons that wrap in a narrow dock, so that every tab stays reachable.
-void tabs(const std::vector<const PanelInfo*>& panels, PanelId shown, Workspace& workspace, Dock dock) {
+void tabs(Dock dock, PanelId front, const Layout& layout, DocksState& state, Workspace& workspace) {
+    setItemScope("tab");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2, 2});
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, 3);
     const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    for (std::size_t i = 0; i < panels.size(); ++i) {
-        const PanelInfo& info = *panels[i];
+    TabRow row{dock, panelsIn(dock, workspace), {}};
+    for (const PanelId id : row.panels) {
+        const PanelInfo& info = infoOf(id);
         const float width = ImGui::CalcTextSize(info.title).x + 2 * ImGui::GetStyle().FramePadding.x;
-        if (i > 0 && ImGui::GetItemRectMax().x + 2 + width <= end) ImGui::SameLine();
-        const bool active = info.id == shown;
-        ImGui::PushStyleColor(ImGuiCol_Button,
-                              ImGui::GetStyleColorVec4(active ? ImGuiCol_TabActive : ImGuiCol_Tab));
-        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_TabHovered));
-        ImGui::PushStyleColor(ImGuiCol_Text, active ? palette().text : palette().dim);
-        if (ImGui::Button(info.title)) workspace.inFront[indexOf(dock)] = info.id;
-        noteItem(info.title);
-        ImGui::PopStyleColor(3);
-        if (active) {
-            const ImVec2 min = ImGui::GetItemRectMin();
-            const ImVec2 max = ImGui::GetItemRectMax();
-            ImGui::GetWindowDrawList()->AddRectFilled({min.x + 2, max.y - 2}, {max.x - 2, max.y},
-                                                      ImGui::GetColorU32(palette().accent));
-        }
-        tabMenu(info, workspace);
+        if (!row.tabs.empty() && ImGui::GetItemRectMax().x + 2 + width <= end) ImGui::SameLine();
+        row.tabs.push_back(tab(info, id == front, dock, workspace));
+        obeyTab(info, row.tabs.back(), dock, layout, state, workspace);
+        setItemScope("tab");
     }
+    if (layout.viewportCovered) restoreButton(end, workspace);
     ImGui::PopStyleVar(2);
     ImGui::Separator();
+    state.rows.push_back(std::move(row));
 }
 
 void dragSplitter(Dock dock, const Layout& layout, Workspace& workspace) {
+    const Rect& bar = layout.splitters[indexOf(dock)];
+    if (bar.width <= 0 || bar.height <= 0) return;
     const bool upright = dock != Dock::Bottom;
     double movedPx = 0;
-    if (!splitter(splitterNames[indexOf(dock)], layout.splitters[indexOf(dock)], upright, movedPx)) return;
+    if (!splitter(splitterNames[indexOf(dock)], bar, upright, movedPx)) return;
     // Resizes from the current size, which may be less than the stored size.
     const Rect& rect = layout.docks[indexOf(dock)];
     const double shownPx = static_cast<double>(upright ? rect.width : rect.height);
@@ -95,36 +104,37 @@ void dragSplitter(Dock dock, const Layout& layout, Workspace& workspace) {
     if (dock == Dock::Bottom) workspace.bottomHeight = std::clamp(size, 60.0, 1000.0);
 }
 
-}  // namespace
-
-void showPanel(PanelId id, Workspace& workspace) {
-    PanelPlace& place = placeOf(id, workspace);
-    place.shown = true;
-    workspace.inFront[indexOf(place.dock)] = id;
-}
-
-void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStates& panels,
+void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStates& panels, DocksState& state,
               Workspace& workspace, ViewSettings& settings, Commands& commands) {
-    const std::vector<const PanelInfo*> shown = panelsIn(dock, workspace);
-    if (shown.empty()) return;
-    const auto isActive = [&](const PanelInfo* info) { return info->id == workspace.inFront[indexOf(dock)]; };
-    if (std::none_of(shown.begin(), shown.end(), isActive))
-        workspace.inFront[indexOf(dock)] = shown.front()->id;
-    const PanelId active = workspace.inFront[indexOf(dock)];
-
-    beginFixedWindow(dockNames[indexOf(dock)], layout.docks[indexOf(dock)],
+    const std::optional<PanelId> front = frontPanel(dock, workspace);
+    const Rect& rect = layout.docks[indexOf(dock)];
+    // A dock has no room while another one is maximised.
+    if (!front || rect.width <= 0 || rect.height <= 0) return;
+    workspace.inFront[indexOf(dock)] = *front;
+    beginFixedWindow(dockNames[indexOf(dock)], rect,
                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground);
-    setItemScope("tab");
-    tabs(shown, active, workspace, dock);
+    tabs(dock, *front, layout, state, workspace);
     // Each panel has its own child window, so that it keeps its scroll position while another is shown.
-    ImGui::BeginChild(panelInfos[static_cast<std::size_t>(active)].title);
-    ImGui::PushID(static_cast<int>(active));
-    setItemScope(panelInfos[static_cast<std::size_t>(active)].key);
-    drawPanel(active, view, panels, settings, commands);
-    ImGui::PopID();
+    ImGui::BeginChild(infoOf(*front).title);
+    drawPanelContent(*front, view, panels, state, settings, commands);
     ImGui::EndChild();
     ImGui::End();
     dragSplitter(dock, layout, workspace);
+}
+
+}  // namespace
+
+void drawDocks(const Layout& layout, const EditorView& view, PanelStates& panels, DocksState& state,
+               Workspace& workspace, ViewSettings& settings, Commands& commands) {
+    state.rows.clear();
+    state.drawn = {};
+    // A dock that has lost its last panel is not maximised when it gets another one.
+    if (!maximisedDock(workspace)) workspace.maximised = MaximisedDock::None;
+    for (const Dock dock : {Dock::Left, Dock::Right, Dock::Bottom})
+        drawDock(dock, layout, view, panels, state, workspace, settings, commands);
+    for (const PanelId panel : floatingPanels(workspace))
+        drawFloatingPanel(panel, layout, view, panels, state, workspace, settings, commands);
+    advanceDrag(layout, state, workspace);
 }
 
 }  // namespace worldy::ui

@@ -1,17 +1,16 @@
-// The docks around the viewport. Each shows one of its panels, has a tab for each, and can be resized.
+// The docks around the viewport, and the panels that float over it. A dock shows one of its panels, has a tab
+// for each, and can be resized and maximised. ui/model/docking.h says where panels lie.
 #pragma once
 
-#include "ui/model/layout.h"
+#include "ui/model/docking.h"
+#include "ui/shell/docks_state.h"
 #include "ui/shell/panels.h"
 
 namespace worldy::ui {
 
-// Shows a panel in front of its dock.
-void showPanel(PanelId id, Workspace& workspace);
-
-// Draws a dock with its tabs and its splitter. A right click on a tab moves the panel to another dock or
-// hides it.
-void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStates& panels,
-              Workspace& workspace, ViewSettings& settings, Commands& commands);
+// Draws the docks with their tabs and splitters, the floating panels, and the preview of a drag. Moves
+// panels in the workspace.
+void drawDocks(const Layout& layout, const EditorView& view, PanelStates& panels, DocksState& state,
+               Workspace& workspace, ViewSettings& settings, Commands& commands);
 
 }  // namespace worldy::ui

@@ -9,6 +9,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -33,8 +34,8 @@ void messageBox(Message& message, Commands& commands) {
     }
     ImGui::PopTextWrapPos();
     ImGui::Spacing();
-    const bool opens =
-        message.offersOpen && button("Open another file...", "Shows the open dialog (Ctrl+O).");
+    const bool opens = message.offersOpen &&
+                       button("Open another file...", withKey("Shows the open dialog.", "open").c_str());
     if (message.offersOpen) ImGui::SameLine();
     bool closed = button("Close", "The Log panel keeps the message (Esc).") || opens;
     // An Enter that opened the box does not close it.

@@ -61,6 +61,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return whatIfPanel(view, states.traceWhatIf, commands);
         case PanelId::Ruler:
             return rulerPanel(view, commands);
+        case PanelId::Notes:
+            return notesPanel(view, states.notes, settings, commands);
     }
 }
 

@@ -21,6 +21,7 @@
 #include "ui/panels/measure/pops_panel.h"
 #include "ui/panels/measure/probe_panel.h"
 #include "ui/panels/measure/ruler_panel.h"
+#include "ui/panels/notes/notes_panel.h"
 #include "ui/panels/paging/paging_panel.h"
 #include "ui/panels/sources/sources_panel.h"
 #include "ui/panels/surface/surface_panel.h"
@@ -55,6 +56,7 @@ struct PanelStates {
     TracePagingPanelState tracePaging;
     TraceFindingsPanelState traceFindings;
     WhatIfPanelState traceWhatIf;
+    NotesPanelState notes;
 };
 
 // Fills the current window with a panel.

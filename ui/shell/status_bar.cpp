@@ -13,6 +13,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/camera_heights.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -90,8 +91,8 @@ void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name
     const auto count =
         std::count_if(log.begin(), log.end(), [&](const LogLine& line) { return line.level == level; });
     if (count == 0) return;
-    cells.add(fmt::format("{} {}{}", count, name, count == 1 ? "" : "s"), "See the Log panel (Ctrl+L).",
-              colour);
+    cells.add(fmt::format("{} {}{}", count, name, count == 1 ? "" : "s"),
+              withKey("See the Log panel.", "panel_log").c_str(), colour);
     noteItem(name);
 }
 
@@ -143,7 +144,7 @@ void statusBar(const EditorView& view, const ViewSettings& settings, const Rect&
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ImGui::GetFontSize() * 0.7f, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
-    beginFixedWindow("status bar", rect, ImGuiWindowFlags_NoScrollbar);
+    beginFixedWindow("status bar", rect, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav);
     setItemScope("status");
     Cells cells(rect);
     cells.add(view.data.name.empty() ? "no planet open" : shortened(view.data.name, 32),

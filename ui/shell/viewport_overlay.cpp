@@ -9,18 +9,26 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/chunk_labels.h"
+#include "ui/model/key_names.h"
 #include "ui/model/overlay_legend.h"
 #include "ui/model/paging_text.h"
 #include "ui/shell/compare_overlay.h"
+#include "ui/shell/note_pins.h"
 
 namespace worldy::ui {
 
 namespace {
 
-// The longest line that fits is shown.
-constexpr std::array helpLines = {
-    "Left drag: move   Right drag: look   Wheel: zoom   Click: select   W A S D E Q: fly   F10: all keys",
-    "Drag: move, look   Wheel: zoom   W A S D E Q: fly   F10: keys", "F10: keys and mouse"};
+// Returns hint lines, the longest first. The keys of commands are left out if the commands have none.
+std::array<std::string, 3> helpLines() {
+    const std::string keys = keyOf("keys");
+    const std::string find = keyOf("palette");
+    const auto last = [&](const char* meaning) { return keys.empty() ? "" : "   " + keys + ": " + meaning; };
+    return {"Left drag: move   Right drag: look   Wheel: zoom   Click: select   W A S D E Q: fly" +
+                (find.empty() ? "" : "   " + find + ": find") + last("all keys"),
+            "Drag: move, look   Wheel: zoom   W A S D E Q: fly" + last("keys"),
+            keys.empty() ? "" : keys + ": keys and mouse"};
+}
 
 // Returns the longest end of a text that fits, after an ellipsis.
 std::string endThatFits(const std::string& text, float widthPx) {
@@ -143,8 +151,8 @@ PlacedBadge placed(ViewportBadge badge, float x, float y) {
 // Adds the hint line at the bottom; none if even the shortest does not fit.
 void placeHelp(const Rect& viewport, std::vector<PlacedBadge>& badges) {
     const float room = viewport.width - 2 * marginPx() - ImGui::GetFontSize();
-    for (const char* text : helpLines) {
-        if (ImGui::CalcTextSize(text).x > room) continue;
+    for (const std::string& text : helpLines()) {
+        if (text.empty() || ImGui::CalcTextSize(text.c_str()).x > room) continue;
         const float y = viewport.y + viewport.height - badgeStepPx() - marginPx() / 2;
         badges.push_back(placed({text, palette().dim}, viewport.x + marginPx(), y));
         return;
@@ -250,6 +258,12 @@ void pushClip(const Rect& rect) {
     ImGui::PushClipRect({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height}, true);
 }
 
+// Returns "Paused (F5), step: F6", without the keys that commands do not have.
+std::string pausedText() {
+    const std::string step = keyOf("step_frame");
+    return withKey("Paused", "pause_frames") + (step.empty() ? "" : ", step: " + step);
+}
+
 }  // namespace
 
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
@@ -260,8 +274,8 @@ std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSett
                                    : "Compiling shaders; stand-in shaders used",
                           palette().warning});
     }
-    if (view.frames.paused) badges.push_back({"Paused (F5), step: F6", palette().warning});
-    if (view.camera.lodFrozen) badges.push_back({"LOD frozen (F2)", palette().warning});
+    if (view.frames.paused) badges.push_back({pausedText(), palette().warning});
+    if (view.camera.lodFrozen) badges.push_back({withKey("LOD frozen", "freeze_lod"), palette().warning});
     if (view.data.showsPreviousBake) badges.push_back({"Previous bake", palette().warning});
     if (view.instruments.pops.side != PopSide::Live && view.instruments.pops.problem.empty())
         badges.push_back({view.instruments.pops.side == PopSide::Before ? "Before the level change"
@@ -278,8 +292,8 @@ std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSett
         }
         if (map.pixels.empty()) badges.push_back({"No cracks", palette().good});
     }
-    if (settings.overlay.wireframe) badges.push_back({"Wireframe (F1)", palette().accent});
-    if (settings.overlay.cube) badges.push_back({"Unprojected cube (F4)", palette().accent});
+    if (settings.overlay.wireframe) badges.push_back({withKey("Wireframe", "wireframe"), palette().accent});
+    if (settings.overlay.cube) badges.push_back({withKey("Unprojected cube", "cube"), palette().accent});
     if (settings.surface.exaggeration != 1)
         badges.push_back(
             {fmt::format("Exaggeration {:.3g} x", settings.surface.exaggeration), palette().accent});
@@ -322,6 +336,7 @@ void viewportOverlay(const EditorView& view, const ViewSettings& settings, const
         ImGui::PopClipRect();
     }
     drawRulerNames(drawList, view, viewport);
+    drawNotePins(view, settings, viewport);
     compareOverlay(view.compare, settings.compare, viewport);
     drawLegend(drawList, legend, layout, taken.front());
     for (const PlacedBadge& one : badges) {

@@ -145,7 +145,7 @@ TEST_F(Presets, NamesThatAreNoFileNamesAreRefusedAndWriteNothing) {
           std::string(".hidden"), std::string(".."), std::string(" x"), std::string("x "), std::string("x."),
           std::string("a\nb"), std::string("nul\0", 4), std::string("a:b"), std::string("caf\xe9"),
           std::string(61, 'x')}) {
-        EXPECT_FALSE(checkPresetName(name)) << name;
+        EXPECT_FALSE(checkFileName(name)) << name;
         EXPECT_FALSE(library.save(name, {})) << name;
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "config"));
@@ -153,7 +153,7 @@ TEST_F(Presets, NamesThatAreNoFileNamesAreRefusedAndWriteNothing) {
     EXPECT_THAT(library.save("a/b", {}).error().message,
                 HasSubstr("name \"a/b\": contains one of / \\ : * ? \" < > |; expected none of them"));
     for (const char* name : {"a", "crack hunting 2", "tau 0.5 (fine)", "Erde ä"})
-        EXPECT_TRUE(checkPresetName(name)) << name;
+        EXPECT_TRUE(checkFileName(name)) << name;
 }
 
 TEST(ShippedPresets, AllCanBeReadAndChangeSomethingAndTheDefaultHoldsEverything) {
@@ -163,7 +163,7 @@ TEST(ShippedPresets, AllCanBeReadAndChangeSomethingAndTheDefaultHoldsEverything)
     for (const ui::PresetView& view : library.views({})) {
         names.push_back(view.name);
         EXPECT_EQ(view.problem, "");
-        EXPECT_TRUE(checkPresetName(view.name));
+        EXPECT_TRUE(checkFileName(view.name));
         EXPECT_EQ(view.differences.empty(), view.name == defaultPreset) << view.name;
     }
     EXPECT_THAT(names,

@@ -1,60 +1,89 @@
 #include "app/editor/shortcuts.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <set>
-#include <sstream>
+
+#include "tests/support/action_fixture.h"
 
 namespace worldy {
 namespace {
 
-// Each key on its own: "F5, F6" are two.
-std::set<std::string> listedNames() {
-    std::set<std::string> names;
-    for (const ui::KeyHelp& help : ui::listedKeys()) {
-        std::istringstream keys(help.keys);
-        for (std::string name; std::getline(keys, name, ',');) {
-            name.erase(0, name.find_first_not_of(' '));
-            names.insert(name);
-        }
+class ShortcutsTest : public testing::Test {
+protected:
+    void SetUp() override { ImGui::CreateContext(); }
+    void TearDown() override { ImGui::DestroyContext(); }
+
+    void press(const char* name) {
+        const KeyChord chord = keyChordFrom(name).value();
+        const KeyPress press{chord.key, (chord.ctrl ? 2 : 0) | (chord.shift ? 1 : 0) | (chord.alt ? 4 : 0)};
+        obeyShortcuts(std::span(&press, 1), bench_.context());
     }
-    return names;
+    KeyChords& keysOf(const char* id) {
+        return bench_.keys[static_cast<std::size_t>(&ui::actionNamed(id) - ui::actions().data())];
+    }
+
+    ui::ActionBench bench_;
+};
+
+TEST_F(ShortcutsTest, escClosesTheHelpWindowsOneByOneAndThenSelectsNothing) {
+    bench_.menu.showKeys = bench_.menu.showAbout = true;
+    press("Esc");
+    EXPECT_TRUE(bench_.menu.showKeys);
+    EXPECT_FALSE(bench_.menu.showAbout);
+    press("Esc");
+    EXPECT_FALSE(bench_.menu.showKeys);
+    EXPECT_TRUE(bench_.commands.empty());
+    press("Esc");
+    ASSERT_EQ(bench_.commands.size(), 1u);
+    EXPECT_TRUE(bench_.commands.front().as<ui::SelectChunk>());
 }
 
-TEST(Shortcuts, everyKeyIsListedInTheHelp) {
-    const std::set<std::string> listed = listedNames();
-    for (const std::string& name : shortcutNames()) EXPECT_TRUE(listed.contains(name)) << name;
-    for (const PanelInfo& info : panelInfos) EXPECT_TRUE(listed.contains(info.shortcut)) << info.title;
+TEST_F(ShortcutsTest, anEscThatImGuiClosedAMenuWithDoesNothingElse) {
+    bench_.menu.popupWasOpen = true;
+    press("Esc");
+    EXPECT_TRUE(bench_.commands.empty());
+    press("Esc");
+    EXPECT_EQ(bench_.commands.size(), 1u);
 }
 
-TEST(Shortcuts, escClosesTheHelpWindowsOneByOneAndThenSelectsNothing) {
-    ImGui::CreateContext();
-    const FrameStats stats;
-    const std::deque<ui::FrameSample> history;
-    const planet::LodChanges changes;
-    const std::deque<LogLine> log;
-    const ui::EditorView view{
-        .frames = {.stats = stats, .history = history}, .log = log, .instruments = {.changes = changes}};
-    ViewSettings settings;
-    Workspace workspace;
-    ui::MenuState menu{true, true};
-    ui::Commands commands;
-    const KeyPress escape{256, 0};
-    const auto press = [&] {
-        obeyShortcuts(std::span(&escape, 1), {view, settings, workspace, menu, commands});
-    };
-    press();
-    EXPECT_TRUE(menu.showKeys);
-    EXPECT_FALSE(menu.showAbout);
-    press();
-    EXPECT_FALSE(menu.showKeys);
-    EXPECT_TRUE(commands.empty());
-    press();
-    ASSERT_EQ(commands.size(), 1u);
-    EXPECT_TRUE(commands.front().as<ui::SelectChunk>());
-    ImGui::DestroyContext();
+TEST_F(ShortcutsTest, escLeavesASettingBeforeItClosesThePalette) {
+    press("Ctrl+K");
+    bench_.menu.palette.edited = "lod.tau_px";
+    press("Esc");
+    EXPECT_TRUE(bench_.menu.palette.isOpen);
+    EXPECT_EQ(bench_.menu.palette.edited, "");
+    press("Esc");
+    EXPECT_FALSE(bench_.menu.palette.isOpen);
+    EXPECT_TRUE(bench_.commands.empty());
+}
+
+TEST_F(ShortcutsTest, aChangedKeyActsAndTheOldOneDoesNot) {
+    keysOf("freeze_lod") = {*keyChordFrom("Ctrl+Alt+F")};
+    press("F2");
+    EXPECT_TRUE(bench_.commands.empty());
+    press("Ctrl+Alt+F");
+    ASSERT_EQ(bench_.commands.size(), 1u);
+    EXPECT_TRUE(bench_.commands.front().as<ui::FreezeLod>());
+}
+
+TEST_F(ShortcutsTest, inATextFieldOnlyTheKeysForItWork) {
+    ImGui::GetIO().WantTextInput = true;
+    press("F2");
+    press("Esc");
+    EXPECT_TRUE(bench_.commands.empty());
+    press("Ctrl+K");
+    EXPECT_TRUE(bench_.menu.palette.isOpen);
+    press("Esc");
+    EXPECT_FALSE(bench_.menu.palette.isOpen);
+}
+
+TEST_F(ShortcutsTest, whatIsNotPossibleSaysWhyAndDoesNothing) {
+    press("F12");
+    EXPECT_TRUE(bench_.commands.empty());
+    EXPECT_EQ(bench_.menu.refused, "Screenshot: No planet is open.");
 }
 
 }  // namespace

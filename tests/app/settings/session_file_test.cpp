@@ -51,9 +51,9 @@ TEST_F(SessionFile, isEmptyBeforeTheFirstSession) {
 }
 
 TEST_F(SessionFile, isRefusedWithItsLineIfItIsWrong) {
-    EXPECT_THAT(
-        problemOf("file = 'a.tif'\nfiles = 'b.tif'\n"),
-        AllOf(HasSubstr("session.toml: line 2"), HasSubstr("files is unknown; expected file, camera or trace")));
+    EXPECT_THAT(problemOf("file = 'a.tif'\nfiles = 'b.tif'\n"),
+                AllOf(HasSubstr("session.toml: line 2"),
+                      HasSubstr("files is unknown; expected file, camera or trace")));
     EXPECT_THAT(problemOf("\nfile = 3\n"), HasSubstr("session.toml: line 2"));
     EXPECT_THAT(problemOf("camera = '1,2'\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("camera")));
     EXPECT_THAT(problemOf("camera = '1e999,0,0'\n"), HasSubstr("session.toml: line 1"));

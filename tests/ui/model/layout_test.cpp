@@ -73,6 +73,18 @@ TEST(Layout, SizesFollowTheFont) {
     EXPECT_EQ(dockOf(layoutOf(3000, 2000, workspace, 20, 20, 2), Dock::Bottom).height, 200);
 }
 
+TEST(Layout, textGrowsNoFurtherThanTheWindowCanShow) {
+    EXPECT_EQ(fittingScale(1.2, 1600, 1000, 15), 1.2);
+    EXPECT_EQ(fittingScale(0.5, 640, 400, 15), 0.5);
+    const double most = fittingScale(3, 1024, 640, 15);
+    EXPECT_NEAR(most, 1.52, 0.01);
+    EXPECT_GE(1024 / (15 * most), 45 - 1e-3);
+    EXPECT_GE(640 / (15 * most), 28 - 1e-3);
+    // The monitor's own scale stays.
+    EXPECT_EQ(fittingScale(3, 640, 400, 30), 1);
+    EXPECT_EQ(fittingScale(0.8, 640, 400, 30), 0.8);
+}
+
 TEST(Layout, AMinimisedWindowHasALayoutToo) {
     const Layout layout = layoutOf(0, 0, {}, 22, 24, 1);
     EXPECT_GT(layout.viewport.width, 0);

@@ -127,11 +127,13 @@ void openFileSection(const EditorView& view, const ViewSettings& settings) {
         if (column == 1) return textSortKey(rows[row].value);
         return std::string(rows[row].live ? "live" : "baked");
     };
-    for (const std::size_t row : tableOrder(rows.size(), chosenSort(), key)) {
-        ImGui::TableNextRow();
-        parameterRow(rows[row]);
-    }
-    ImGui::EndTable();
+    for (const std::size_t row : tableOrder(rows.size(), chosenSort(), key))
+        tableRow(row, [&] { parameterRow(rows[row]); });
+    endTable(
+        exportTable<Parameter>("bake", rows.size(), [&](std::size_t row) { return rows[row]; },
+                               {{"parameter", [](const Parameter& row) { return row.name; }},
+                                {"value", [](const Parameter& row) { return row.value; }},
+                                {"set", [](const Parameter& row) { return row.live ? "live" : "baked"; }}}));
 }
 
 // Draws a label, lit if the value differs from the open file's.

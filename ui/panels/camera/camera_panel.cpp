@@ -12,6 +12,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/camera_heights.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -93,7 +94,7 @@ void poseSection(const EditorView& view, const ViewSettings& settings, CameraPan
         }
         endValues();
     }
-    if (button("Reset", "Moves the camera to where this session started (F3)."))
+    if (button("Reset", withKey("Moves the camera to where this session started.", "reset_camera").c_str()))
         commands.push_back(ResetCamera{});
     sameLineForButton("Set as start");
     if (button("Set as start", "Future sessions start with this view."))
@@ -162,8 +163,7 @@ void followedFlight(const FlightView& flight, Commands& commands) {
 void flightsSection(const EditorView& view, const ViewSettings& settings, Commands& commands) {
     if (!section("Flights")) return;
     if (view.camera.flights.empty())
-        ImGui::TextColored(palette().dim,
-                           "No flights found. Flights are TOML files in a folder \"flights\".");
+        wrappedText("No flights found. Flights are TOML files in a folder \"flights\".", palette().dim);
     for (const std::filesystem::path& file : view.camera.flights) {
         const bool followed = view.camera.flight && settings.camera.flight == file.string();
         if (ImGui::Selectable(flightName(file).c_str(), followed)) commands.push_back(StartFlight{file});

@@ -12,6 +12,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -73,7 +74,12 @@ void presetList(const EditorView& view, PresetsPanelState& state, Commands& comm
     };
     tableRows(view.settings.presets.size(), key,
               [&](std::size_t row) { presetRow(view.settings.presets[row], state, commands); });
-    ImGui::EndTable();
+    endTable(exportTable<PresetView>(
+        "presets", view.settings.presets.size(), [&](std::size_t row) { return view.settings.presets[row]; },
+        {{"name", [](const PresetView& preset) { return preset.name; }, true},
+         {"changes", [](const PresetView& preset) { return preset.differences.size(); }},
+         {"origin", [](const PresetView& preset) { return preset.shipped ? "built-in" : "user"; }},
+         {"problem", [](const PresetView& preset) { return preset.problem; }}}));
 }
 
 // Returns why the name cannot be used, or null if it can. same: the preset that already has the name.
@@ -151,7 +157,12 @@ void differencesTable(const PresetView& preset) {
     tableRows(rows.size(), key, [&](std::size_t row) {
         for (const std::string& text : rows[row]) textCell(text);
     });
-    ImGui::EndTable();
+    using Difference = SettingDifference;
+    endTable(exportTable<Difference>("preset changes", rows.size(),
+                                     [&](std::size_t row) { return preset.differences[row]; },
+                                     {{"setting", [](const Difference& d) { return d.setting; }, true},
+                                      {"current", [](const Difference& d) { return d.here; }},
+                                      {"preset", [](const Difference& d) { return d.there; }}}));
 }
 
 void selectedSection(const EditorView& view, const PresetsPanelState& state, Commands& commands) {
@@ -182,7 +193,9 @@ void selectedSection(const EditorView& view, const PresetsPanelState& state, Com
 void presetsPanel(const EditorView& view, PresetsPanelState& state, Commands& commands) {
     beginGrey(!view.planet, "Open a planet first.");
     if (button("Copy as command line",
-               "Copies a worldy shot command that draws this view with these settings (Ctrl+Shift+C)."))
+               withKey("Copies a worldy shot command that draws this view with these settings.",
+                       "copy_command_line")
+                   .c_str()))
         commands.push_back(CopyCommandLine{});
     endGrey();
     sameLineForButton("Reset all settings");

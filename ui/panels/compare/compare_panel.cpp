@@ -4,7 +4,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
+#include <span>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "app/base/text.h"
@@ -61,46 +66,93 @@ void chooseB(const EditorView& view, Commands& commands) {
         commands.push_back(StartCompare{With::File, {}, view.data.recent[static_cast<std::size_t>(file)]});
 }
 
+// Returns the text, or its beginning and dots if it is wider than the room.
+std::string fittingText(const std::string& text, float room) {
+    const auto width = [](const std::string& part) { return ImGui::CalcTextSize(part.c_str()).x; };
+    if (width(text) <= room) return text;
+    std::string part = text;
+    while (!part.empty() && width(part + "...") > room) {
+        // Removes a whole character of UTF-8.
+        while (!part.empty() && (static_cast<unsigned char>(part.back()) & 0xC0u) == 0x80u) part.pop_back();
+        if (!part.empty()) part.pop_back();
+    }
+    return part + "...";
+}
+
 void comparedCell(const std::string& text, const char* explanation = nullptr) {
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(text.c_str());
+    const std::string shown = fittingText(text, ImGui::GetContentRegionAvail().x);
+    ImGui::TextUnformatted(shown.c_str());
     if (explanation)
         tooltip(explanation);
-    else if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
+    else if (shown != text)
         tooltip(text.c_str());
+}
+
+std::string widestWord(const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;) words.push_back(word);
+    return widestText(words);
+}
+
+// Returns the number of lines that the names take, wrapped in the first column of a list table.
+std::size_t wrappedLines(std::span<const std::string> names, std::span<const TableColumn> columns) {
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+    const float width = columnWidths(columns, std::max(room, tableWidth(columns))).front();
+    float lines = 0;
+    for (const std::string& name : names)
+        lines += ImGui::CalcTextSize(name.c_str(), nullptr, false, width).y / ImGui::GetFontSize();
+    return static_cast<std::size_t>(std::ceil(lines));
 }
 
 void differencesTable(const CompareView& compare) {
     struct Row {
         std::array<std::string, 3> texts;
         std::array<const char*, 3> explanations{};
+        std::string setting;  // its name in the settings file
+        std::array<std::string, 2> values;
     };
     std::vector<Row> rows;
     if (compare.fileA != compare.fileB)
         rows.push_back({{"chunk file", compare.fileA.filename().string(), compare.fileB.filename().string()},
-                        {nullptr, compare.fileA.c_str(), compare.fileB.c_str()}});
+                        {nullptr, compare.fileA.c_str(), compare.fileB.c_str()},
+                        "file",
+                        {compare.fileA.string(), compare.fileB.string()}});
     // File names are left out of the column widths: they may have any length, and their tooltips show the
     // paths.
     std::array<std::vector<std::string>, 2> values;
+    std::vector<std::string> names, words;
     for (const SettingDifference& one : compare.different) {
         const auto [a, b] = shortNumberTexts(one.here, one.there);
-        rows.push_back({{inFont(one.label), a, b}});
+        rows.push_back({{inFont(one.label), a, b}, {}, one.setting, {one.here, one.there}});
         values[0].push_back(a);
         values[1].push_back(b);
     }
+    for (const Row& row : rows) {
+        names.push_back(row.texts[0]);
+        words.push_back(widestWord(row.texts[0]));
+    }
+    const std::string widestName = widestText(words);
     const std::string widestA = widestText(values[0]);
     const std::string widestB = widestText(values[1]);
-    const std::array columns = {TableColumn{"Setting", 2}, TableColumn{"A", 1, nullptr, widestA.c_str()},
+    const std::array columns = {TableColumn{"Setting", 2, nullptr, widestName.c_str()},
+                                TableColumn{"A", 1, nullptr, widestA.c_str()},
                                 TableColumn{"B", 1, nullptr, widestB.c_str()}};
-    if (!beginListTable("sides", columns, rows.size())) return;
+    if (!beginListTable("sides", columns, wrappedLines(names, columns))) return;
     const auto key = [&](std::size_t row, std::size_t column) {
         return textSortKey(rows[row].texts[column]);
     };
     tableRows(rows.size(), key, [&](std::size_t row) {
-        for (std::size_t column = 0; column < columns.size(); ++column)
+        ImGui::TableNextColumn();
+        wrappedText(rows[row].texts[0], palette().text);
+        for (std::size_t column = 1; column < columns.size(); ++column)
             comparedCell(rows[row].texts[column], rows[row].explanations[column]);
     });
-    ImGui::EndTable();
+    endTable(exportTable<Row>("compared settings", rows.size(), [&](std::size_t row) { return rows[row]; },
+                              {{"setting", [](const Row& row) { return row.setting; }, true},
+                               {"a", [](const Row& row) { return row.values[0]; }},
+                               {"b", [](const Row& row) { return row.values[1]; }}}));
 }
 
 void sides(const CompareView& compare, Commands& commands) {
@@ -153,13 +205,29 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
     std::vector<CompareRow> rows;
     std::copy_if(compareRows().begin(), compareRows().end(), std::back_inserter(rows),
                  [&](const CompareRow& row) { return live ? row.live : row.flight; });
-    // The ratio stands before A and B: a narrow panel scrolls the last columns out of sight.
-    constexpr std::array columns = {
-        TableColumn{"Figure", 1.5f, nullptr, "Max drawn bound"},
-        TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.", "-99.9 MiB"},
-        TableColumn{"A", 1, "The planet shown in the window.", "99.9 MiB"},
-        TableColumn{"B", 1, "The second planet.", "99.9 MiB"}};
-    if (!beginListTable(id, columns, rows.size(), rows.size() + 1, 1)) return;
+    std::array<std::vector<std::string>, 4> texts;
+    std::vector<std::string> names;
+    for (const CompareRow& row : rows) {
+        names.push_back(inFont(row.name));
+        const auto& a = figures[0].*row.value;
+        const auto& b = figures[1].*row.value;
+        texts[0].push_back(widestWord(names.back()));
+        texts[1].push_back(changeText(row, a, b));
+        texts[2].push_back(figureText(row, a));
+        texts[3].push_back(figureText(row, b));
+    }
+    std::array<std::string, 4> widest;
+    std::transform(texts.begin(), texts.end(), widest.begin(),
+                   [](const std::vector<std::string>& all) { return widestText(all); });
+    // The ratio stands before A and B: a very narrow panel scrolls the last columns out of sight. Names are wrapped.
+    const std::array columns = {
+        TableColumn{"Figure", 1.5f, nullptr, widest[0].c_str()},
+        TableColumn{"B / A", 1, "Ratio B / A, or the difference B - A if one of them is 0.",
+                    widest[1].c_str()},
+        TableColumn{"A", 1, "The planet shown in the window.", widest[2].c_str()},
+        TableColumn{"B", 1, "The second planet.", widest[3].c_str()}};
+    const std::size_t lines = wrappedLines(names, columns);
+    if (!beginListTable(id, columns, lines, lines + 1, 1)) return;
     const auto key = [&](std::size_t row, std::size_t column) {
         return figureSortKey(rows[row], static_cast<FigureColumn>(column), figures);
     };
@@ -168,14 +236,21 @@ void figuresTable(const char* id, const std::array<ComparedFigures, 2>& figures,
         const auto& a = figures[0].*row.value;
         const auto& b = figures[1].*row.value;
         const ImVec4 colour = live && stale && isMeasured(row) ? palette().dim : palette().text;
-        cell(inFont(row.name), palette().dim);
+        ImGui::TableNextColumn();
+        wrappedText(row.name, palette().dim);
         tooltip(row.explanation);
         for (const std::string& text : {changeText(row, a, b), figureText(row, a), figureText(row, b)}) {
             rightCell(text, colour);
             tooltip(row.explanation);
         }
     });
-    ImGui::EndTable();
+    // The names are those of worldy compare --json.
+    const auto of = [&](std::size_t side) {
+        return [&figures, side](const CompareRow& row) { return figures[side].*row.value; };
+    };
+    endTable(exportTable<CompareRow>(
+        fmt::format("compare {}", id), rows.size(), [&](std::size_t row) { return rows[row]; },
+        {{"figure", [](const CompareRow& row) { return row.key; }, true}, {"a", of(0)}, {"b", of(1)}}));
 }
 
 void nowSection(const CompareView& compare, Commands& commands) {

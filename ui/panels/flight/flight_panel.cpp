@@ -103,7 +103,11 @@ void flightList(const EditorView& view, FlightPanelState& state, Commands& comma
             return flights[row].bytes;
         };
         tableRows(flights.size(), key, [&](std::size_t row) { flightRow(flights[row], state, commands); });
-        ImGui::EndTable();
+        endTable(exportTable<RecordedFlight>(
+            "recorded flights", flights.size(), [&](std::size_t row) { return flights[row]; },
+            {{"name", [](const RecordedFlight& flight) { return flight.name; }, true},
+             {"file", [](const RecordedFlight& flight) { return flight.file.string(); }},
+             {"size_bytes", [](const RecordedFlight& flight) { return flight.bytes; }}}));
     }
     const auto chosen = std::find_if(flights.begin(), flights.end(),
                                      [&](const RecordedFlight& f) { return f.name == state.selected; });

@@ -121,6 +121,32 @@ void drawRow(const AllocationRow& row, const AllocationsView& view, bool withMar
     if (withMark) rightCell(marked, palette().dim);
 }
 
+ExportTable allocationExport(const AllocationsView& view) {
+    ExportTable table{.name = "allocations",
+                      .columns = {{"group"}, {"kind"}, {"unit"}, {"now"}, {"mark"}, {"change"}},
+                      .rows = kindRows.size()};
+    table.cell = [&](std::size_t row, std::size_t column) -> ExportCell {
+        const AllocationRow& kind = kindRows[row];
+        const double now = kind.value(*view.now), mark = kind.value(view.mark);
+        switch (column) {
+            case 0:
+                while (!kindRows[row].group) --row;
+                return kindRows[row].group;
+            case 1:
+                return shownName(kind);
+            case 2:
+                return kind.bytes ? "bytes" : "count";
+            case 3:
+                return now;
+            case 4:
+                return mark;
+            default:
+                return now - mark;
+        }
+    };
+    return table;
+}
+
 void drawTable(const AllocationsView& view) {
     const bool withMark = ImGui::GetContentRegionAvail().x >= listTableWidth(allocationColumns);
     const std::span<const TableColumn> shown = withMark ? std::span(allocationColumns) : withoutMark;
@@ -138,10 +164,9 @@ void drawTable(const AllocationsView& view) {
             ImGui::TableNextRow();
             cell(row.group);
         }
-        ImGui::TableNextRow();
-        drawRow(row, view, withMark);
+        tableRow(i, [&] { drawRow(row, view, withMark); });
     }
-    ImGui::EndTable();
+    endTable(allocationExport(view));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/figures.h"
 #include "ui/model/history.h"
 #include "ui/panels/frame/allocation_table.h"
 
@@ -101,8 +102,8 @@ void plots(const EditorView& view, bool wide) {
     const std::vector<float> sampleTimes = historyTimes(view.frames.history);
     // The other lines are the legends.
     const float lines = wide ? linesThatFit(2, 4, 12) : 4;
-    stagePlot(view, "cpu", "ms CPU", cpuStages, sampleTimes, lines);
-    stagePlot(view, "gpu", "ms GPU", gpuStages, sampleTimes, lines);
+    stagePlot(view, "CPU stages", "ms CPU", cpuStages, sampleTimes, lines);
+    stagePlot(view, "GPU stages", "ms GPU", gpuStages, sampleTimes, lines);
 }
 
 std::vector<ValueRow> countRows(const EditorView& view) {
@@ -133,7 +134,7 @@ void memoryByKind(const EditorView& view) {
                             memoryBar("Other", std::max(process - chunksCpu, 0.0), 5)};
     ImGui::TextDisabled("CPU: %s", bytesText(process).c_str());
     tooltip("Resident memory of the whole program.");
-    barList("cpu", cpu);
+    barList("CPU memory", cpu, "bytes");
     tooltip("Resident chunks: nodes and heights. Other: the program, its pictures and the driver.");
 
     const planet::gl::GpuMemory& gpu = stats.gpuMemory;
@@ -149,7 +150,7 @@ void memoryByKind(const EditorView& view) {
         memoryBar("Render targets", asBytes(stats.targetBytes), 4)};
     ImGui::TextDisabled("GPU: %s", bytesText(asBytes(gpu.total() + stats.targetBytes)).c_str());
     tooltip("Memory the program allocated from the driver.");
-    barList("gpu", kinds);
+    barList("GPU memory", kinds, "bytes");
     tooltip(
         "Heights in use: pool slots with a resident chunk. Heights free: empty pool slots reserved by the "
         "budget. Meshes: grid and instance buffers. Textures: the colour image and similar. Colour tiles and "
@@ -172,13 +173,9 @@ void partCosts(const EditorView& view, Commands& commands) {
                  fmt::format("{:.0f} %", 100 * view.instruments.light.measured));
 }
 
-std::vector<ValueRow> partRows(const EditorView& view) {
+std::vector<ValueRow> partRows(const Figures& costs) {
     std::vector<ValueRow> rows;
-    for (const PartCost& cost : view.instruments.light.costs)
-        rows.push_back({cost.part,
-                        fmt::format("{:+.1f} ms, {:.2f} x", cost.withMs - cost.withoutMs,
-                                    cost.withMs / std::max(cost.withoutMs, 1e-6)),
-                        "Additional frame time compared with the lit ground alone, which is 1."});
+    for (const Figure& cost : costs) rows.push_back({cost.name, cost.value, cost.explanation.c_str()});
     return rows;
 }
 
@@ -186,7 +183,8 @@ std::vector<ValueRow> partRows(const EditorView& view) {
 
 void framePanel(const EditorView& view, Commands& commands) {
     const std::vector<ValueRow> times = timeRows(view);
-    const std::vector<ValueRow> parts = partRows(view);
+    const Figures costs = costFigures(view.instruments.light.costs);
+    const std::vector<ValueRow> parts = partRows(costs);
     const std::vector<ValueRow> counts = countRows(view);
     const auto drawTimes = [&] {
         pauseControls(view, commands);

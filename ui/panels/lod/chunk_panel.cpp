@@ -194,7 +194,7 @@ void drawingRows(const EditorView& view, const ChunkExplanation& explanation, co
 
 void parents(const ChunkId& id, Commands& commands) {
     if (id.level == 0) {
-        ImGui::TextDisabled("None: this chunk is a whole face.");
+        wrappedText("None: this chunk is a whole face.", palette().dim);
         return;
     }
     const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
@@ -222,6 +222,7 @@ void neighbours(const EditorView& view, const ChunkId& id, Commands& commands) {
             "neighbours", 2,
             ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate))
         return;
+    detail::beginRows();
     ImGui::TableSetupColumn("Edge", ImGuiTableColumnFlags_WidthFixed, 4.6f * ImGui::GetFontSize());
     ImGui::TableSetupColumn("Chunks", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
@@ -229,8 +230,7 @@ void neighbours(const EditorView& view, const ChunkId& id, Commands& commands) {
         if (column == 0) return std::string(names[edge]);
         return beside[edge].empty() ? SortKey(std::string()) : sortKey(beside[edge].front());
     };
-    for (const std::size_t edge : tableOrder(planet::edgeCount, chosenSort(), key)) {
-        ImGui::TableNextRow();
+    const auto drawRow = [&](std::size_t edge) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", names[edge]);
         tooltip(
@@ -248,8 +248,17 @@ void neighbours(const EditorView& view, const ChunkId& id, Commands& commands) {
             ImGui::TextColored(palette().dim, "%s", difference.c_str());
         }
         if (beside[edge].size() > most) ImGui::TextDisabled("and %zu more", beside[edge].size() - most);
-    }
-    ImGui::EndTable();
+    };
+    for (const std::size_t edge : tableOrder(planet::edgeCount, chosenSort(), key))
+        tableRow(edge, [&] { drawRow(edge); });
+    ExportTable table{.name = "neighbours", .columns = {{"edge"}, {"chunks"}}, .rows = planet::edgeCount};
+    table.cell = [&](std::size_t edge, std::size_t column) -> ExportCell {
+        if (column == 0) return names[edge];
+        std::string chunks;
+        for (const ChunkId& other : beside[edge]) chunks += (chunks.empty() ? "" : " ") + toString(other);
+        return chunks;
+    };
+    endTable(table);
 }
 
 void heightPicture(const EditorView& view, const ChunkNode& node, ChunkPanelState& state) {
@@ -312,7 +321,7 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
     const float high = std::max(*high1, *high2);
     ImGui::BeginGroup();
     ImGui::TextColored(across.colour, "west to east");
-    ImGui::SameLine();
+    sameLineIfRoom(ImGui::CalcTextSize("south to north").x);
     ImGui::TextColored(up.colour, "south to north");
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float pad = ImGui::GetFontSize() * 0.3f;
@@ -321,6 +330,14 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
     noteItem("Profile");
     const bool hovered = ImGui::IsItemHovered();
     ImGui::EndGroup();
+    ExportTable heights{.name = "chunk profiles",
+                        .columns = {{"vertex"}, {"west_to_east_m"}, {"south_to_north_m"}},
+                        .rows = across.heightsM.size()};
+    heights.cell = [&](std::size_t row, std::size_t column) -> ExportCell {
+        if (column == 0) return row;
+        return column == 1 ? across.heightsM[row] : up.heightsM[row];
+    };
+    exportPlot("profile", heights);
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     drawList.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg), 2);

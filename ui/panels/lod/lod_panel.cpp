@@ -19,6 +19,7 @@
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
 #include "ui/model/history.h"
+#include "ui/model/key_names.h"
 
 namespace worldy::ui {
 
@@ -60,8 +61,9 @@ void cullingControls(const EditorView& view, const SettingControls& control, pla
     control.beside(lod.horizonCulling);
     bool frozen = view.camera.lodFrozen;
     if (frozen) ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
-    if (ImGui::Checkbox("Freeze (F2)", &frozen)) commands.push_back(FreezeLod{frozen});
-    noteItem("Freeze (F2)");
+    if (ImGui::Checkbox((withKey("Freeze", "freeze_lod") + "###freeze").c_str(), &frozen))
+        commands.push_back(FreezeLod{frozen});
+    noteItem("Freeze");
     if (view.camera.lodFrozen) ImGui::PopStyleColor();
     tooltip(
         "Keeps the current selection while the camera moves, to inspect it from outside. No other chunks are "
@@ -122,8 +124,7 @@ void chunkSizeControl(const EditorView& view, Commands& commands) {
 
 void formulas(const EditorView& view, double tauPx) {
     const double screenScale = planet::screenScalePx(view.camera.lodView);
-    const std::string formula = inFont("ε = δc K' / D     d_m = δc K");
-    ImGui::TextDisabled("%s", formula.c_str());
+    wrappedText("ε = δc K' / D     d_m = δc K", palette().dim);
     tooltip(
         "Screen-space error in pixels of a chunk at the distance D in metres, and the switch distance d_m in "
         "metres: a nearer chunk must be split. δc, in metres, is the chunk's geometric error from the bake.");
@@ -188,7 +189,7 @@ void levelBars(const planet::Planet& planet) {
              {c.r, c.g, c.b, 1},
              fmt::format("{}   {} ground tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
     }
-    barList("levels", bars);
+    barList("drawn chunks by level", bars, "chunks");
     tooltip("Chunks drawn per level and their ground triangles. Level 0 is a whole cube face.");
 }
 
@@ -199,7 +200,7 @@ void drawnPlots(const EditorView& view, double tauPx) {
                historyValues(view.frames.history, [](const FrameStats& s) { return s.selection.drawn; })},
         Series{"visited", seriesColour(1),
                historyValues(view.frames.history, [](const FrameStats& s) { return s.selection.visited; })}};
-    linePlot("counts", times, counts, "");
+    linePlot("drawn and visited", times, counts, "");
     // A chunk that contains the eye has an unbounded error, so errors far above the tolerance are clamped.
     const auto top = static_cast<float>(16 * tauPx);
     const std::string name = fmt::format("max {} (clamped at 16 {})", epsSymbol(), tauSymbol());
@@ -207,7 +208,7 @@ void drawnPlots(const EditorView& view, double tauPx) {
         Series{name.c_str(), seriesColour(3), historyValues(view.frames.history, [top](const FrameStats& s) {
                    return std::min(s.selection.worstEpsPx, top);
                })}};
-    linePlot("errors", times, errors, "px", 0, 3, false, tauPx);
+    linePlot("max error", times, errors, "px", 0, 3, false, tauPx);
 }
 
 // Returns the chunks that thrashed last, newest first, each once.

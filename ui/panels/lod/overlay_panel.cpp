@@ -36,6 +36,7 @@ void drawnControls(const SettingControls& control, OverlaySettings& overlay) {
     control.beside(overlay.cube);
     control(overlay.clipmap);
     control.beside(overlay.sources);
+    control(overlay.notes);
     control(overlay.skirtPaint);
     control(overlay.labels);
 }
@@ -67,8 +68,8 @@ void errorHistogram(const planet::Planet& planet) {
     const double tauPx = planet.views()[0].input.lod.tauPx;
     const ErrorCounts errors = errorCounts(selection, tauPx);
     const std::array marks = {HistogramMark{0.5, fmt::format("{} {:.3g} px", tauSymbol(), tauPx)}};
-    histogram("eps", errors.counts, "0 px", fmt::format("{:.3g} px and over", 2 * tauPx), marks, 4,
-              [&](double position) { return fmt::format("{:.3g} px", 2 * tauPx * position); });
+    histogram("errors of drawn chunks", errors.counts, "0 px", fmt::format("{:.3g} px and over", 2 * tauPx),
+              marks, 4, [&](double position) { return fmt::format("{:.3g} px", 2 * tauPx * position); });
     tooltip(
         "Histogram of the screen-space error of drawn chunks. Leaves have error 0. Chunks right of τ wait "
         "for their children or may not be split.");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "app/base/glossary.h"
 #include "app/base/text.h"
 #include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
@@ -268,7 +269,6 @@ void treeRow(const EditorView& view, const TreeRow& row, QuadtreePanelState& sta
     std::string name = toString(row.id);
     ImGui::PushID(name.c_str());
     if (row.id.level > 0) name.erase(0, name.find('/') + 1);
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.5f * ImGui::GetFontSize() * row.id.level);
     if (openArrow(row)) {
@@ -336,10 +336,17 @@ void treeList(const EditorView& view, const NetData& data, ImVec2 size, Quadtree
     clipper.Begin(static_cast<int>(rows.size()));
     while (clipper.Step()) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            treeRow(view, rows[static_cast<std::size_t>(i)], state, commands);
+            const auto row = static_cast<std::size_t>(i);
+            tableRow(row, [&] { treeRow(view, rows[row], state, commands); });
         }
     }
-    ImGui::EndTable();
+    const auto epsPx = [](const TreeRow& row) {
+        return row.node == planet::noNode ? ExportCell() : ExportCell(row.epsPx);
+    };
+    endTable(exportTable<TreeRow>("quadtree", rows.size(), [&](std::size_t row) { return rows[row]; },
+                                  {{"chunk", [](const TreeRow& row) { return toString(row.id); }, true},
+                                   {terms::epsPx.key, epsPx},
+                                   {"state", [](const TreeRow& row) { return stateText(row.state); }}}));
 }
 
 }  // namespace

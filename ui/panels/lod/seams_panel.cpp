@@ -77,7 +77,7 @@ void differenceBars(std::span<const planet::LevelSeam> seams) {
         bars.push_back({fmt::format("{} level{}", levels, levels == 1 ? "" : "s"),
                         static_cast<double>(counts[levels]), colour, fmt::format("{}", counts[levels])});
     }
-    barList("differences", bars);
+    barList("level differences", bars, "seams");
     tooltip("LOD seams by level difference.");
 }
 
@@ -114,12 +114,24 @@ void seamTable(const EditorView& view, std::span<const planet::LevelSeam> seams,
             if (column == 1) return std::string(edgeName(seam.edge));
             return sortKey(seam.finer);
         };
-        tableRows(seams.size(), key, [&](std::size_t row) { seamRow(seams[row], view, commands); });
+        std::vector<const planet::LevelSeam*> sorted;
+        for (const std::size_t row : tableOrder(seams.size(), chosenSort(), key))
+            sorted.push_back(&seams[row]);
+        order = std::move(sorted);
+        tableRows(order.size(), [&](std::size_t row) { seamRow(*order[row], view, commands); });
     } else {
         sortedTableRows(order, wider,
                         [&](const planet::LevelSeam* seam, std::size_t) { seamRow(*seam, view, commands); });
     }
-    ImGui::EndTable();
+    using Seam = planet::LevelSeam;
+    ExportTable table =
+        exportTable<Seam>("LOD seams", order.size(), [&](std::size_t row) { return *order[row]; },
+                          {{"level_difference", difference},
+                           {"edge", [](const Seam& seam) { return edgeName(seam.edge); }, true},
+                           {"finer", [](const Seam& seam) { return toString(seam.finer); }, true},
+                           {"coarser", [](const Seam& seam) { return toString(seam.coarser); }, true}});
+    if (!chosenSort()) table.sortAll = [&] { std::sort(order.begin(), order.end(), wider); };
+    endTable(table);
 }
 
 }  // namespace

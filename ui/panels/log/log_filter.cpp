@@ -2,30 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
+#include "ui/model/text_filter.h"
+
 namespace worldy::ui {
-
-namespace {
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-}  // namespace
-
-bool holds(std::string_view text, std::string_view part) {
-    const auto same = [](char a, char b) { return lower(a) == lower(b); };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end() ||
-           part.empty();
-}
 
 std::vector<std::size_t> filteredLines(const std::deque<LogLine>& lines, std::string_view filter,
                                        std::span<const bool, 4> levels) {
     std::vector<std::size_t> shown;
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (levels[static_cast<std::size_t>(lines[i].level)] && holds(lines[i].text, filter))
+        if (levels[static_cast<std::size_t>(lines[i].level)] && passes(filter, {lines[i].text}))
             shown.push_back(i);
     }
     return shown;

@@ -12,10 +12,7 @@
 
 namespace worldy::ui {
 
-// Returns true if text contains part, ignoring the case of ASCII letters. Every text contains the empty one.
-bool holds(std::string_view text, std::string_view part);
-
-// Returns the indices of the lines of the chosen levels that contain the filter, oldest first.
+// Returns the indices of the lines of the chosen levels that contain all words of the filter, oldest first.
 std::vector<std::size_t> filteredLines(const std::deque<LogLine>& lines, std::string_view filter,
                                        std::span<const bool, 4> levels);
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -37,10 +37,10 @@ void refresh(const std::deque<LogLine>& lines, LogPanelState& state) {
     const LogLine* newest = lines.empty() ? nullptr : &lines.back();
     if (shown.count == lines.size() && shown.oldest == oldest && shown.newest == newest &&
         (!newest || shown.newestText == newest->text) && shown.levels == state.levels &&
-        std::string_view(shown.filter.data()) == state.filter.data()) {
+        shown.filter.view() == state.filter.view()) {
         return;
     }
-    shown.lines = filteredLines(lines, state.filter.data(), state.levels);
+    shown.lines = filteredLines(lines, state.filter.view(), state.levels);
     shown.filter = state.filter;
     shown.levels = state.levels;
     shown.count = lines.size();
@@ -51,10 +51,7 @@ void refresh(const std::deque<LogLine>& lines, LogPanelState& state) {
 
 void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
     const float font = ImGui::GetFontSize();
-    ImGui::SetNextItemWidth(std::min(font * 16, ImGui::GetContentRegionAvail().x));
-    ImGui::InputTextWithHint("##filter", "Filter", state.filter.data(), state.filter.size());
-    noteItem("Filter");
-    tooltip("Shows only lines that contain this text; not case-sensitive.");
+    filterBox(state.filter, "lines");
     for (std::size_t i = 0; i < state.levels.size(); ++i) {
         const auto level = static_cast<LogLevel>(i);
         sameLineIfRoom(checkboxWidth(levelName(level)));
@@ -134,6 +131,7 @@ void drawLine(const LogLine& line, std::size_t index, Commands& commands) {
     ImGui::TextColored(palette().dim, "%s", line.time.c_str());
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, colourOf(line.level));
+    highlightHits(line.text);
     ImGui::TextUnformatted(line.text.c_str());
     ImGui::PopStyleColor();
     ImGui::SetCursorPos(next);
@@ -152,6 +150,7 @@ void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& 
         state.autoScroll = false;
     const std::vector<std::size_t>& shown = state.shown.lines;
     if (shown.empty()) emptyState(lines.empty() ? "The log is empty." : "No line matches the filters.");
+    const HitHighlight highlight(state.filter);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(shown.size()));
     while (clipper.Step()) {

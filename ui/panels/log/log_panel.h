@@ -9,18 +9,19 @@
 
 #include "app/base/log_lines.h"
 #include "ui/model/commands.h"
+#include "ui/model/text_filter.h"
 
 namespace worldy::ui {
 
 struct LogPanelState {
-    std::array<char, 128> filter{};  // only lines that contain this are shown; case is ignored
+    TextFilter filter{};
     bool autoScroll = true;
     std::array<bool, 4> levels{true, true, true, true};  // which are shown
 
     // The lines that pass the filters; they are updated when the log or a filter changes.
     struct Shown {
         std::vector<std::size_t> lines;  // indices, oldest first
-        std::array<char, 128> filter{};
+        TextFilter filter{};
         std::array<bool, 4> levels{};
         std::size_t count = 0;  // number of lines in the log when this was updated
         const LogLine* oldest = nullptr;

@@ -9,6 +9,7 @@
 
 #include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
+#include "ui/kit/figure_rows.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/setting_controls.h"
@@ -55,6 +56,7 @@ bool foundRow(const char* name, const std::string& value, const char* explanatio
               const std::string& whyNot) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
+    noteValue(name, value);
     ImGui::TextColored(palette().dim, "%s", name);
     tooltip(explanation);
     ImGui::TableNextColumn();
@@ -96,8 +98,7 @@ void factorRow(const char* name, double factor, const char* explanation, bool re
                                : factor <= 0         ? "No cracks found."
                                : factor > mostFactor ? "The factor exceeds 10; apply the depth instead."
                                                      : "";
-    const std::string text = std::isfinite(factor) ? fmt::format("{:.3f}", factor) : std::string("none");
-    if (!foundRow(name, text, explanation, whyNot)) return;
+    if (!foundRow(name, factorText(factor), explanation, whyNot)) return;
     lod.seams = planet::SeamMode::Skirts;
     lod.skirtDepth = planet::SkirtDepth::Automatic;
     lod.skirtFactor = factor;
@@ -109,17 +110,7 @@ void values(const CracksView& cracks, bool replayed, planet::LodSettings& lod) {
     const char* const note = roundingNote(measured.map.pixels.size(), worstGapM);
     if (*note != '\0') wrappedText(note, palette().dim);
     if (!beginValues("cracks")) return;
-    const ImVec4 good = palette().good;
-    const ImVec4 bad = palette().bad;
-    valueRow("Crack pixels", fmt::format("{}", measured.map.pixels.size()),
-             "Pixels whose depth differs between rendering with full-depth skirts and without skirts.");
-    valueRow("Uncovered pixels", fmt::format("{}", measured.map.leaking),
-             "Crack pixels that the current skirts do not cover. Must be 0.",
-             measured.map.leaking == 0 ? &good : &bad);
-    valueRow("Crack clusters", fmt::format("{}", measured.spots.size()),
-             "Connected crack pixels between the same two chunks.");
-    valueRow("LOD seams", fmt::format("{}", measured.levelPairs),
-             "Pairs of adjacent drawn chunks with different levels.");
+    figureRows(crackFigures(measured));
     depthRow("Required depth (max gap)", measured.required.depthM,
              "Largest height difference between two adjacent edges, in metres.", replayed, lod);
     factorRow("Required factor (max gap)", measured.required.factor,
@@ -182,7 +173,21 @@ void spotTable(const EditorView& view, Commands& commands) {
         return sortKey(measured.items[pair.finer]);
     };
     tableRows(spots.size(), key, [&](std::size_t row) { spotRow(view, spots[row], commands); });
-    ImGui::EndTable();
+    const CrackMeasurement& measured = *view.instruments.cracks.measured;
+    const auto nameOf = [&](const planet::CrackSpot& spot, auto side) -> ExportCell {
+        if (spot.pair == planet::noPair) return {};
+        return planet::toString(measured.items[measured.pairs[spot.pair].*side]);
+    };
+    // The names are those of worldy cracks --json.
+    using Spot = planet::CrackSpot;
+    endTable(exportTable<Spot>(
+        "crack clusters", spots.size(), [&](std::size_t row) { return spots[row]; },
+        {{"pixels", [](const Spot& spot) { return spot.pixels; }},
+         {"leaking", [](const Spot& spot) { return spot.leaking; }},
+         {"finer", [&](const Spot& spot) { return nameOf(spot, &planet::DrawnPair::finer); }},
+         {"coarser", [&](const Spot& spot) { return nameOf(spot, &planet::DrawnPair::coarser); }},
+         {"centre_x_px", [](const Spot& spot) { return spot.centre.x; }},
+         {"centre_y_px", [](const Spot& spot) { return spot.centre.y; }}}));
 }
 
 // Returns the skirt depth of the higher edge, metres.
@@ -221,7 +226,20 @@ void gapTable(const EditorView& view, Commands& commands) {
         return sortKey(gap.finer);
     };
     tableRows(gaps.size(), key, [&](std::size_t row) { gapRow(view, gaps[row], commands); });
-    ImGui::EndTable();
+    // The names are those of worldy cracks --json.
+    using Gap = planet::EdgeGap;
+    endTable(
+        exportTable<Gap>("edge gaps", gaps.size(), [&](std::size_t row) { return gaps[row]; },
+                         {{"finer", [](const Gap& gap) { return planet::toString(gap.finer); }, true},
+                          {"coarser", [](const Gap& gap) { return planet::toString(gap.coarser); }, true},
+                          {"gap_m", [](const Gap& gap) { return gap.gapM; }},
+                          {"radial_m", [](const Gap& gap) { return gap.radialM; }},
+                          {"facing_px", [](const Gap& gap) { return gap.facingPx; }},
+                          {"screen_px", [](const Gap& gap) { return gap.screenPx; }},
+                          {"finer_above_m", [](const Gap& gap) { return gap.finerAboveM; }},
+                          {"coarser_above_m", [](const Gap& gap) { return gap.coarserAboveM; }},
+                          {"finer_skirt_m", [](const Gap& gap) { return gap.finerSkirtM; }},
+                          {"coarser_skirt_m", [](const Gap& gap) { return gap.coarserSkirtM; }}}));
 }
 
 }  // namespace

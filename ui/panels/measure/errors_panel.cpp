@@ -13,6 +13,8 @@
 #include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/figure_rows.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
@@ -27,11 +29,6 @@ namespace {
 using planet::ChunkError;
 
 constexpr double logarithmicDecades = 4;
-
-// Formats with more digits than pixelsText(): the errors compared here are often 0.1 px.
-std::string finePx(double px, const char* unit = " px") {
-    return fmt::format("{:.3g}{}", px, unit);
-}
 
 void errorsControls(const EditorView& view, ViewSettings& settings, Commands& commands) {
     const ErrorsView& errors = view.instruments.errors;
@@ -80,34 +77,8 @@ void measuredWhen(const EditorView& view, const ErrorMeasurement& last) {
 }
 
 void figures(const ErrorMeasurement& last) {
-    const planet::TrueErrorReport& report = last.report;
-    if (!beginValues("errors")) return;
-    const bool wrong = report.violations > 0;
-    valueRow("Violations", fmt::format("{}", report.violations),
-             "Chunks whose measured error exceeds the drawn bound, in facing pixels. Must be 0.",
-             wrong ? &palette().bad : &palette().good);
-    if (report.violationsInSeams > 0)
-        valueRow("  beside seams", fmt::format("{}", report.violationsInSeams),
-                 "Violations whose largest error lies in a cell beside an edge stitched to a coarser chunk. "
-                 "Triangles there span several cells, which δc does not cover.",
-                 &palette().bad);
-    valueRow("Geometric max error", finePx(report.worstFacingPx),
-             "Largest error of any finest sample, in pixels, as if the view faced it: K' times the angle "
-             "between its true and its drawn position. The drawn bound bounds this error.");
-    valueRow(
-        "Screen-space max error", finePx(report.worstScreenPx),
-        "Largest error in the projected image, in pixels, of the samples inside it, including hidden ones. "
-        "The projection stretches towards the corners, so this can exceed the geometric error.");
-    valueRow("99th percentile", finePx(report.p99FacingPx),
-             "99 % of the chunks have no larger error, as if the view faced it; each chunk counts once.");
-    valueRow(fmt::format("Max {}", epsSymbol()).c_str(), finePx(report.worstEpsPx),
-             "Largest predicted error of a drawn chunk's own surface, in pixels. Compared with τ. "
-             "Excludes morph.");
-    valueRow("Max drawn bound", finePx(report.worstDrawnBoundPx), terms::drawnBoundPx.meaning);
-    valueRow("Slack", fmt::format("{:.0f} %", 100 * report.meanSlack),
-             "1 - measured / bound, mean over the chunks. Larger: more triangles than the tolerance needs.");
-    valueRow(terms::drawnChunks.name, fmt::format("{}", report.chunks.size()), "Chunks drawn in that frame.");
-    valueRow("Samples", countText(static_cast<double>(report.samples)), "Number of finest samples compared.");
+    if (!beginValues("true error figures")) return;
+    figureRows(errorFigures(last));
     endValues();
 }
 
@@ -205,6 +176,21 @@ void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& c
     ImGui::EndTooltip();
 }
 
+// The names are those of worldy audit --json.
+std::vector<ExportField<ChunkError>> errorFields() {
+    using E = ChunkError;
+    return {{"chunk", [](const E& e) { return planet::toString(e.id); }, true},
+            {terms::measuredPx.key, [](const E& e) { return e.facingPx; }},
+            {terms::drawnBoundPx.key, [](const E& e) { return e.drawnBoundPx; }},
+            {"slack", [](const E& e) { return planet::slackOf(e); }},
+            {terms::screenPx.key, [](const E& e) { return e.screenPx; }},
+            {"error_m", [](const E& e) { return e.errorM; }},
+            {"mean_px", [](const E& e) { return e.meanPx; }},
+            {terms::epsPx.key, [](const E& e) { return e.epsPx; }},
+            {"samples", [](const E& e) { return e.samples; }},
+            {"violation", [](const E& e) { return planet::isViolation(e); }}};
+}
+
 void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands) {
     const ErrorMeasurement& last = *view.instruments.errors.last;
     checkbox("Logarithmic", state.logarithmic, true,
@@ -229,6 +215,10 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
     ring(scale, last, view.focus.selected, palette().text);
     ring(scale, last, view.focus.hovered, palette().warning);
     ImGui::PopClipRect();
+    const auto& chunks = last.report.chunks;
+    exportPlot("scatter", exportTable<ChunkError>(
+                              "true error plot", chunks.size(), [&](std::size_t row) { return chunks[row]; },
+                              errorFields()));
     if (const auto nearest = nearestToPointer(scale, last.report.chunks))
         return pointerOnChunk(last.report.chunks[*nearest], view, commands);
     tooltip(
@@ -258,28 +248,45 @@ void chunkRow(const ChunkError& chunk, const EditorView& view, Commands& command
     if (wrong) ImGui::PopStyleColor();
 }
 
+constexpr const char* widestError = "0.000123";  // as finePx() writes it
+
 constexpr std::array worstColumns = {
     TableColumn{"Chunk", 1.9f, "Click to select the chunk; double-click to look at it."},
     TableColumn{"##go", 0.1f, nullptr, "Go xx"},
-    TableColumn{"Measured", 1.1f, terms::measuredPx.meaning},
-    TableColumn{"Bound", 0.9f, terms::drawnBoundPx.meaning},
+    TableColumn{"Measured", 1.1f, terms::measuredPx.meaning, widestError},
+    TableColumn{"Bound", 0.9f, terms::drawnBoundPx.meaning, widestError},
     TableColumn{"Slack", 0.8f, "1 - measured / bound."},
     TableColumn{"Screen space", 1.3f,
-                "Measured error in the projected picture, in pixels; 0 if no sample lies in it."},
+                "Measured error in the projected picture, in pixels; 0 if no sample lies in it.",
+                widestError},
     TableColumn{
         "Error", 0.9f,
-        "Distance in metres between the sample and the drawn surface, where the measured error is largest."},
-    TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk."}};
+        "Distance in metres between the sample and the drawn surface, where the measured error is largest.",
+        "123.4 km"},
+    TableColumn{"Mean", 0.9f, "Mean error in facing pixels over all finest samples under the chunk.",
+                widestError}};
 
-void worstList(const EditorView& view, Commands& commands) {
-    const std::string widest = widestChunkName(view);
+// widestChunk: must outlive the columns.
+auto worstColumnsFor(const std::string& widestChunk) {
     std::array columns = worstColumns;
-    columns[0].widest = widest.c_str();
-    if (!beginWideTable("worst", columns, 1)) return;
+    columns[0].widest = widestChunk.c_str();
+    return columns;
+}
+
+void worstList(const EditorView& view, ErrorsPanelState& state, Commands& commands) {
     const ErrorMeasurement& last = *view.instruments.errors.last;
-    const auto chunkOf = [&](std::size_t row) -> const ChunkError& {
-        return last.report.chunks[last.worstFirst[row]];
-    };
+    filterBox(state.filter, "chunks");
+    std::vector<std::size_t> rows;  // indices of the report's chunks
+    for (const std::size_t chunk : last.worstFirst)
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {planet::toString(last.report.chunks[chunk].id)}))
+            rows.push_back(chunk);
+    if (rows.empty() && !state.filter.empty()) return emptyState("No chunk matches the filter.");
+    const HitHighlight highlight(state.filter);
+    const std::string widest = widestChunkName(view);
+    const std::array columns = worstColumnsFor(widest);
+    if (!beginWideTable("worst", columns, 1)) return;
+    const auto chunkOf = [&](std::size_t row) -> const ChunkError& { return last.report.chunks[rows[row]]; };
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const ChunkError& chunk = chunkOf(row);
         switch (column) {
@@ -299,8 +306,8 @@ void worstList(const EditorView& view, Commands& commands) {
                 return chunk.meanPx;
         }
     };
-    tableRows(last.worstFirst.size(), key, [&](std::size_t row) { chunkRow(chunkOf(row), view, commands); });
-    ImGui::EndTable();
+    tableRows(rows.size(), key, [&](std::size_t row) { chunkRow(chunkOf(row), view, commands); });
+    endTable(exportTable<ChunkError>("true error", rows.size(), chunkOf, errorFields()));
 }
 
 }  // namespace
@@ -316,14 +323,23 @@ void errorsPanel(const EditorView& view, ErrorsPanelState& state, ViewSettings& 
                               : "Press Measure to compare the drawn surface with the finest data.");
     }
     constexpr float tableLines = 12;
+    const float font = ImGui::GetFontSize();
+    const std::string widest = widestChunkName(view);
     const std::array columns = {
-        Column{"Measured", 1, 0,
-               [&] {
-                   measuredWhen(view, *view.instruments.errors.last);
-                   figures(*view.instruments.errors.last);
-               }},
-        Column{"Measured against drawn bound", 1, 0, [&] { scatter(view, state, commands); }},
-        Column{"Chunks", 1.6f, tableLines, [&] { worstList(view, commands); }}};
+        Column{.title = "Measured",
+               .draw =
+                   [&] {
+                       measuredWhen(view, *view.instruments.errors.last);
+                       figures(*view.instruments.errors.last);
+                   },
+               .wanted = 18 * font},
+        Column{
+            .title = "Error and bound", .draw = [&] { scatter(view, state, commands); }, .wanted = 15 * font},
+        Column{.title = "Chunks",
+               .share = 1.6f,
+               .stackedLines = tableLines,
+               .draw = [&] { worstList(view, state, commands); },
+               .wanted = listTableWidth(worstColumnsFor(widest))}};
     drawColumns("errors", columns);
 }
 

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "app/base/plot_scale.h"
 #include "app/base/text.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/figure_rows.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/tables.h"
@@ -89,7 +90,8 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
     const std::array marks = {
         HistogramMark{logarithmicPosition(std::max(sample.p99Px, leastPopPx), leastPopPx, mostPopPx),
                       fmt::format("99 %: {}", popPxText(sample.p99Px))}};
-    histogram("jumps", sample.counts, fmt::format("{} px", leastPopPx), fmt::format("{} px", mostPopPx),
+    histogram("pop histogram", sample.counts, fmt::format("{} px", leastPopPx),
+              fmt::format("{} px", mostPopPx),
               sample.seen > 0 ? std::span<const HistogramMark>(marks) : std::span<const HistogramMark>(), 4,
               [](double position) { return popPxText(logarithmicValue(position, leastPopPx, mostPopPx)); });
     tooltip("Histogram of level changes by largest jump in pixels, on a logarithmic axis.");
@@ -97,49 +99,15 @@ void jumps(const EditorView& view, PopsPanelState& state, Commands& commands) {
 
 void totals(const EditorView& view, const PopsPanelState& state) {
     const PopMeter& meter = *view.instruments.pops.meter;
-    const planet::PopTotals& t = meter.totals();
-    const auto count = [](std::uint64_t value) { return countText(static_cast<double>(value)); };
-    if (!beginValues("totals")) return;
-    constexpr std::array<const char*, planet::popCauseCount> meanings = {
-        "The chunk's screen-space error crossed the tolerance because the camera moved.",
-        "A setting that affects LOD selection was changed: tolerance, hysteresis, metric, max LOD level, "
-        "culling, stitched seams, field of view, picture size or exaggeration. A level change that fades "
-        "keeps this cause.",
-        "The chunk was drawn too coarse until its children were loaded.",
-        "The chunk's children were evicted although they were needed: the memory budget is too small.",
-        "Stitched seams limit the level difference of neighbours, and a neighbour changed.",
-        "Stitched seams limit the level difference of neighbours, and a neighbour entered or left the view."};
+    if (!beginValues("pops")) return;
+    const Figures figures = popFigures(meter, state.sample.medianPx);
     for (std::size_t i = 0; i < planet::popCauseCount; ++i) {
-        const auto cause = static_cast<planet::PopCause>(i);
-        const ImVec4 colour = popColour(cause);
-        valueRow(planet::popCauseName(cause), count(t.byCause[i]), meanings[i],
-                 t.byCause[i] > 0 ? &colour : nullptr);
+        const ImVec4 colour = popColour(static_cast<planet::PopCause>(i));
+        const bool any = meter.totals().byCause[i] > 0;
+        valueRow(figures[i].name.c_str(), figures[i].value, figures[i].explanation.c_str(),
+                 any ? &colour : nullptr);
     }
-    valueRow("median jump", popPxText(state.sample.medianPx),
-             "Median of the level changes in the histogram, in pixels.");
-    valueRow("max jump", popPxText(t.worstPx),
-             "Largest jump of the level changes that count since the list was cleared, in pixels.");
-    valueRow("max adjacent jump", popPxText(t.worstBesidePx),
-             "Largest jump along an edge of an unchanged chunk adjacent to a level change, in pixels; the "
-             "edge follows its neighbour.");
-    valueRow(
-        "late now", count(meter.lateOpen()),
-        "Chunks drawn although their error exceeds the tolerance, because their children are not loaded.",
-        meter.lateOpen() > 0 ? &palette().warning : nullptr);
-    valueRow("late, total", count(t.late), "Late chunks since the list was cleared.");
-    valueRow("not measured", count(t.notMeasured),
-             "Level changes in a frame in which the exaggeration changed too: all heights jump there, so no "
-             "jump is measured. They count only in the totals by cause.");
-    valueRow("outside picture", count(t.outsidePicture),
-             "Level changes outside the picture; they count only in the totals by cause.");
-    valueRow("under sea", count(t.underSea),
-             "Level changes of the sea bed under a sea that is drawn as water. They are not visible and "
-             "count only "
-             "in the totals by cause.");
-    valueRow(
-        "after jump", count(t.afterJump),
-        "Level changes caused by a camera jump or by the start of the measurement: the loads and fades that "
-        "were due then. They are listed last and count only in the totals by cause.");
+    figureRows(std::span(figures).subspan(planet::popCauseCount));
     endValues();
 }
 
@@ -244,25 +212,40 @@ void eventRow(const EditorView& view, const PopEvent& event, std::size_t row, Po
     if (!planet::counts(event)) ImGui::PopStyleColor();
 }
 
+// widestChunk: must outlive the columns.
+std::array<TableColumn, 8> eventColumns(const std::string& widestChunk) {
+    return {TableColumn{"Ago", 0.8f, nullptr, "123 s"},
+            TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
+            TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
+            TableColumn{"Levels", 0.9f, nullptr, "10 > 11"},
+            TableColumn{"Chunk", 1.6f, nullptr, widestChunk.c_str()},
+            TableColumn{"Note", 1.3f, nullptr, "outside picture"},
+            TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
+            TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
+}
+
 void worstFirst(const EditorView& view, PopsPanelState& state) {
     const auto& events = view.instruments.pops.meter->events();
     if (events.empty()) return emptyState("No level changes recorded.");
+    filterBox(state.filter, "level changes");
+    std::vector<std::size_t> order;
+    order.reserve(events.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const PopEvent& event = events[i];
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {planet::popCauseName(event.cause), planet::toString(event.chunk),
+                                         planet::popNote(event)}))
+            order.push_back(i);
+    }
+    if (order.empty()) return emptyState("No level change matches the filter.");
+    const HitHighlight highlight(state.filter);
     const std::string chunk = widestChunkName(view);
-    const std::array columns = {TableColumn{"Ago", 0.8f, nullptr, "123 s"},
-                                TableColumn{"Largest", 1.1f, nullptr, "< 0.001 px"},
-                                TableColumn{"Cause", 1.8f, nullptr, "settings changed"},
-                                TableColumn{"Levels", 0.9f, nullptr, "10 > 11"},
-                                TableColumn{"Chunk", 1.6f, nullptr, chunk.c_str()},
-                                TableColumn{"Note", 1.3f, nullptr, "outside picture"},
-                                TableColumn{"Mean", 1.1f, nullptr, "< 0.001 px"},
-                                TableColumn{"Adjacent", 1.1f, nullptr, "< 0.001 px"}};
+    const std::array columns = eventColumns(chunk);
     if (!beginWideTable("worst", columns)) return;
-    std::vector<std::size_t> order(events.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
     const auto worse = [&](std::size_t a, std::size_t b) { return planet::isWorsePop(events[a], events[b]); };
     if (const std::optional<TableSort> sort = chosenSort()) {
         const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
-            const PopEvent& event = events[row];
+            const PopEvent& event = events[order[row]];
             switch (column) {
                 case 0:
                     return -event.timeS;
@@ -282,14 +265,19 @@ void worstFirst(const EditorView& view, PopsPanelState& state) {
                     return event.besidePx;
             }
         };
-        order = tableOrder(events.size(), sort, key);
-        tableRows(order.size(), [&](std::size_t row) { eventRow(view, events[order[row]], row, state); });
+        const std::vector<std::size_t> sorted = tableOrder(order.size(), sort, key);
+        tableRows(sorted.size(),
+                  [&](std::size_t row) { eventRow(view, events[order[sorted[row]]], row, state); });
     } else {
         sortedTableRows(order, worse, [&](std::size_t event, std::size_t row) {
             eventRow(view, events[event], row, state);
         });
     }
-    ImGui::EndTable();
+    ExportTable table = exportTable<PopEvent>(
+        "pops", order.size(), [&](std::size_t row) -> const PopEvent& { return events[order[row]]; },
+        popFields());
+    if (!chosenSort()) table.sortAll = [&] { std::sort(order.begin(), order.end(), worse); };
+    endTable(table);
 }
 
 }  // namespace
@@ -301,13 +289,24 @@ void popsPanel(const EditorView& view, PopsPanelState& state, Commands& commands
     const bool wide = hasWideRoom();
     const auto rows =
         static_cast<float>(std::clamp<std::size_t>(view.instruments.pops.meter->events().size() + 2, 3, 14));
-    const std::array columns = {Column{"Jumps", 1, 0,
-                                       [&] {
-                                           jumps(view, state, commands);
-                                           totals(view, state);
-                                       }},
-                                Column{"Timeline", 1.5f, 0, [&] { timeline(view, state, wide, commands); }},
-                                Column{"Level changes", 1.6f, rows, [&] { worstFirst(view, state); }}};
+    const float font = ImGui::GetFontSize();
+    const std::string chunk = widestChunkName(view);
+    const std::array columns = {Column{.title = "Jumps",
+                                       .draw =
+                                           [&] {
+                                               jumps(view, state, commands);
+                                               totals(view, state);
+                                           },
+                                       .wanted = 16 * font},
+                                Column{.title = "Timeline",
+                                       .share = 1.5f,
+                                       .draw = [&] { timeline(view, state, wide, commands); },
+                                       .wanted = 18 * font},
+                                Column{.title = "Level changes",
+                                       .share = 1.6f,
+                                       .stackedLines = rows,
+                                       .draw = [&] { worstFirst(view, state); },
+                                       .wanted = listTableWidth(eventColumns(chunk))}};
     drawColumns("pops", columns);
 }
 

@@ -6,6 +6,7 @@
 
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
+#include "ui/model/text_filter.h"
 #include "ui/panels/measure/pops_timeline.h"
 
 namespace worldy::ui {
@@ -13,6 +14,7 @@ namespace worldy::ui {
 struct PopsPanelState {
     PopTimelineState timeline;
     std::optional<PopKey> selected;
+    TextFilter filter{};  // of the list
 
     // Statistics of all events, updated at intervals.
     struct Sample {

@@ -9,6 +9,7 @@
 
 #include "app/base/plot_scale.h"
 #include "app/base/text.h"
+#include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
@@ -160,10 +161,20 @@ ImVec4 popColour(planet::PopCause cause) {
     return seriesColour(static_cast<std::size_t>(cause));
 }
 
-std::string popPxText(double px) {
-    return px < leastPopPx ? fmt::format("< {} px", leastPopPx)
-           : px < 0.01     ? fmt::format("{:.3f} px", px)
-                           : pixelsText(px);
+// The names are those of worldy pops --json.
+std::vector<ExportField<planet::PopEvent>> popFields() {
+    using E = planet::PopEvent;
+    const auto px = [](const E& e, double value) { return e.measured ? ExportCell(value) : ExportCell(); };
+    return {{"time_s", [](const E& e) { return e.timeS; }, true},
+            {"chunk", [](const E& e) { return planet::toString(e.chunk); }, true},
+            {"from_level", [](const E& e) { return e.fromLevel; }},
+            {"to_level", [](const E& e) { return e.toLevel; }},
+            {"cause", [](const E& e) { return planet::popCauseName(e.cause); }},
+            {"note", [](const E& e) { return planet::popNote(e); }},
+            {"largest_px", [=](const E& e) { return px(e, e.jump.largestPx); }},
+            {"largest_facing_px", [=](const E& e) { return px(e, e.jump.largestFacingPx); }},
+            {"mean_px", [=](const E& e) { return px(e, e.jump.meanPx); }},
+            {"beside_px", [=](const E& e) { return px(e, e.besidePx); }}};
 }
 
 std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
@@ -193,6 +204,11 @@ std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
         ImGui::GetWindowDrawList()->AddLine({x, plot.start.y}, {x, plot.end.y}, packed(palette().text), 1.5f);
     }
     ImGui::PopClipRect();
+    const auto& events = meter.events();
+    exportPlot("pops timeline",
+               exportTable<planet::PopEvent>(
+                   "pops timeline", events.size(),
+                   [&](std::size_t row) -> const planet::PopEvent& { return events[row]; }, popFields()));
     if (!hovered) return std::nullopt;
     const float x = ImGui::GetIO().MousePos.x;
     const planet::PopEvent* event = nearestTo(plot, columns, x);

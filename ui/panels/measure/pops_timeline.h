@@ -7,8 +7,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planet/measure/pop_meter.h"
+#include "ui/model/export_table.h"
+#include "ui/model/figures.h"
 
 namespace worldy::ui {
 
@@ -23,8 +26,7 @@ inline PopKey keyOf(const planet::PopEvent& event) {
     return {event.frame, event.chunk};
 }
 
-// The range of the logarithmic axis of jumps, pixels; values outside are drawn at its ends.
-inline constexpr double leastPopPx = 0.001;
+// The top of the logarithmic axis of jumps, pixels; leastPopPx is its foot. Values outside are drawn at its ends.
 inline constexpr double mostPopPx = 100;
 
 struct PopTimelineState {
@@ -34,7 +36,9 @@ struct PopTimelineState {
 };
 
 ImVec4 popColour(planet::PopCause cause);
-std::string popPxText(double px);  // "< 0.001 px", "0.004 px", "1.3 px"
+
+// Returns the values of an event that are copied and saved.
+std::vector<ExportField<planet::PopEvent>> popFields();
 
 // Draws the timeline: the wheel zooms in time, dragging moves it. The selected event is marked. Returns the
 // event that was clicked.

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "ui/kit/chunk_link.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
@@ -52,9 +53,19 @@ std::string retryText(const std::optional<double>& retryInS) {
     return *retryInS > 0 ? "in " + latencyText(*retryInS) : "when needed";
 }
 
-void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, Commands& commands) {
+void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, TextFilter& filter,
+                 Commands& commands) {
     if (blocks.empty())
         return emptyState("No read has failed. \"Failure rate\" under I/O fault injection makes reads fail.");
+    filterBox(filter, "blocks");
+    std::vector<const planet::FailedBlock*> rows;
+    for (const planet::FailedBlock& failed : blocks) {
+        if (filter.empty() || passes(filter.view(), {planet::toString(failed.block.parent),
+                                                     kindText(failed.block.kind), failed.message}))
+            rows.push_back(&failed);
+    }
+    if (rows.empty()) return emptyState("No block matches the filter.");
+    const HitHighlight highlight(filter);
     const std::string chunk = widestChunkName(view);
     const std::array columns = {
         TableColumn{"##retry", 0.1f, nullptr, "Retry xx"},
@@ -72,7 +83,7 @@ void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>&
                     "planet.chk: block z_pos/3/5/2 at byte 1234567: read failed"}};
     if (!beginWideTable("failed", columns, 2)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
-        const planet::FailedBlock& failed = blocks[row];
+        const planet::FailedBlock& failed = *rows[row];
         switch (column) {
             case 1:
                 return sortKey(failed.block.parent);
@@ -86,8 +97,16 @@ void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>&
                 return failed.message;
         }
     };
-    tableRows(blocks.size(), key, [&](std::size_t row) { failedRow(view, blocks[row], commands); });
-    ImGui::EndTable();
+    tableRows(rows.size(), key, [&](std::size_t row) { failedRow(view, *rows[row], commands); });
+    using Failed = planet::FailedBlock;
+    endTable(exportTable<Failed>(
+        "failed blocks", rows.size(), [&](std::size_t row) { return *rows[row]; },
+        {{"kind", [](const Failed& failed) { return kindText(failed.block.kind); }, true},
+         {"parent", [](const Failed& failed) { return planet::toString(failed.block.parent); }, true},
+         {"failed_permanently", [](const Failed& failed) { return !failed.retryInS.has_value(); }},
+         {"retry_in_s", [](const Failed& failed) { return failed.retryInS; }},
+         {"attempts", [](const Failed& failed) { return failed.attempts; }},
+         {"reason", [](const Failed& failed) { return failed.message; }}}));
 }
 
 }  // namespace worldy::ui

@@ -7,6 +7,7 @@
 
 #include "planet/planet.h"
 #include "ui/model/editor_view.h"
+#include "ui/model/text_filter.h"
 
 namespace worldy::ui {
 
@@ -16,7 +17,8 @@ void sortFailed(std::vector<planet::FailedBlock>& blocks);
 // Returns "never", "in 1.25 s" or "when needed".
 std::string retryText(const std::optional<double>& retryInS);
 
-// Draws the table in the remaining room. blocks: heights and tiles alike, sorted by sortFailed().
-void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, Commands& commands);
+// Draws the filter and the table in the remaining room. blocks: heights and tiles alike, sorted by sortFailed().
+void failedTable(const EditorView& view, const std::vector<planet::FailedBlock>& blocks, TextFilter& filter,
+                 Commands& commands);
 
 }  // namespace worldy::ui

@@ -16,6 +16,7 @@
 #include "planet/select/screen_error.h"
 #include "ui/kit/chunk_link.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/setting_controls.h"
@@ -204,7 +205,16 @@ void totalsByKind(const FrameStats& stats) {
         cell(countCell(of.tiles));
         cell(countCell(of.budgetWaits), of.budgetWaits > 0 ? palette().warning : palette().text);
     });
-    ImGui::EndTable();
+    endTable(exportTable<KindTotals>("paging totals", kinds.size(),
+                                     [&](std::size_t row) { return kinds[row]; },
+                                     {{"kind", [](const KindTotals& k) { return k.kind; }, true},
+                                      {"loaded", [](const KindTotals& k) { return k.loaded; }},
+                                      {"evicted", [](const KindTotals& k) { return k.evicted; }},
+                                      {"failed", [](const KindTotals& k) { return k.failed; }},
+                                      {"bytes_read", [](const KindTotals& k) { return k.bytesRead; }},
+                                      {"resident", [](const KindTotals& k) { return k.resident; }},
+                                      {"tiles", [](const KindTotals& k) { return k.tiles; }},
+                                      {"over_budget", [](const KindTotals& k) { return k.budgetWaits; }}}));
 }
 
 void totals(const EditorView& view) {
@@ -390,6 +400,8 @@ void kindFilter(const EditorView& view, PagingPanelState& state, bool goesOn = t
 }
 
 void queueFilter(const EditorView& view, PagingPanelState& state) {
+    filterBox(state.filter, "requests");
+    sameLineIfRoom(checkboxWidth("Load"));
     ImGui::Checkbox("Load", &state.showPageIns);
     tooltip("Load requests, most urgent first.");
     ImGui::SameLine();
@@ -420,6 +432,22 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
     return queue.subspan(first, (state.showPageOuts ? queue.size() : firstOut) - first);
 }
 
+// Returns the rows that also pass the text filter.
+std::vector<const PagingRow*> filteredQueue(const EditorView& view, const PagingPanelState& state) {
+    std::vector<const PagingRow*> rows;
+    for (const PagingRow& row : shownQueue(state)) {
+        const bool isLoad = row.type == planet::PagingType::PageIn;
+        const auto passesFilter = [&] {
+            const double ageS = std::max(view.planet->lastStep().nowS - row.askedAtS, 0.0);
+            return passes(state.filter.view(),
+                          {planet::toString(row.parent), kindText(row.kind), isLoad ? "load" : "evict",
+                           reason(*view.planet, row, state.shownView, ageS)});
+        };
+        if (state.filter.empty() || passesFilter()) rows.push_back(&row);
+    }
+    return rows;
+}
+
 const char* emptyQueueText(const EditorView& view, const PagingPanelState& state) {
     if (!state.sample.queue.empty() || state.sample.hidden > 0) return "No requests of this kind.";
     const planet::PagingCounters& p = view.frames.stats.paging;
@@ -432,22 +460,41 @@ const char* emptyQueueText(const EditorView& view, const PagingPanelState& state
     return !waiting ? "The queue is empty: all requested blocks are resident." : "The queue is empty.";
 }
 
+// widestChunk: must outlive the columns.
+std::vector<TableColumn> queueColumns(const EditorView& view, const std::string& widestChunk) {
+    const std::array columns = {TableColumn{"Type", 0.6f, nullptr, "evict"},
+                                TableColumn{"Parent", 1.7f, nullptr, widestChunk.c_str()},
+                                TableColumn{"Priority", 0.9f, nullptr, "12.3 M"},
+                                TableColumn{"Age", 1.15f, nullptr, "59 min 59 s"},
+                                TableColumn{"Reason", 2.4f, nullptr, "unused for 59 min 59 s"}};
+    return withKind(view, columns, 1);
+}
+
+std::vector<TableColumn> historyColumns(const EditorView& view, const std::string& widestChunk) {
+    const std::array columns = {TableColumn{"Outcome", 1.1f, nullptr, "cancelled"},
+                                TableColumn{"Parent", 1.7f, nullptr, widestChunk.c_str()},
+                                TableColumn{"Waited", 1, nullptr, "99.9 ms"},
+                                TableColumn{"Reading", 1, nullptr, "99.9 ms"},
+                                TableColumn{"Size", 1, nullptr, "123 KiB"},
+                                TableColumn{"Requests", 0.7f},
+                                TableColumn{"Finished", 1.2f, nullptr, "59 min 59 s ago"}};
+    return withKind(view, columns, 1);
+}
+
 void queueTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
     queueFilter(view, state);
-    const std::span<const PagingRow> queue = shownQueue(state);
-    if (queue.empty()) return emptyState(emptyQueueText(view, state));
+    const std::vector<const PagingRow*> queue = filteredQueue(view, state);
+    if (queue.empty())
+        return emptyState(state.filter.empty() ? emptyQueueText(view, state)
+                                               : "No request matches the filter.");
+    const HitHighlight highlight(state.filter);
     const std::string chunk = widestChunkName(view);
-    const std::array columns = {
-        TableColumn{"Type", 0.6f, nullptr, "evict"}, TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
-        TableColumn{"Priority", 0.9f, nullptr, "12.3 M"}, TableColumn{"Age", 1.15f, nullptr, "59 min 59 s"},
-        TableColumn{"Reason", 2.4f, nullptr, "unused for 59 min 59 s"}};
-    const std::vector<TableColumn> shown = withKind(view, columns, 1);
-    if (!beginWideTable("queue", shown)) return;
+    if (!beginWideTable("queue", queueColumns(view, chunk))) return;
     const auto ageOf = [&](const PagingRow& row) {
         return std::max(view.planet->lastStep().nowS - row.askedAtS, 0.0);
     };
     const auto key = [&](std::size_t at, std::size_t column) -> SortKey {
-        const PagingRow& row = queue[at];
+        const PagingRow& row = *queue[at];
         const std::optional<std::size_t> plain = withoutKind(view, column, 1);
         if (!plain) return std::string(kindText(row.kind));
         switch (*plain) {
@@ -464,7 +511,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
         }
     };
     tableRows(queue.size(), key, [&](std::size_t at) {
-        const PagingRow& row = queue[at];
+        const PagingRow& row = *queue[at];
         const double ageS = ageOf(row);
         cell(row.type == planet::PagingType::PageIn ? "load" : "evict");
         rowLink(row.parent, row.kind, view, commands);
@@ -472,7 +519,17 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
         cell(latencyText(ageS));
         cell(reason(*view.planet, row, state.shownView, ageS));
     });
-    ImGui::EndTable();
+    endTable(exportTable<PagingRow>(
+        "paging queue", queue.size(), [&](std::size_t row) { return *queue[row]; },
+        {{"type",
+          [](const PagingRow& row) { return row.type == planet::PagingType::PageIn ? "load" : "evict"; },
+          true},
+         {"kind", [](const PagingRow& row) { return kindText(row.kind); }, true},
+         {"parent", [](const PagingRow& row) { return planet::toString(row.parent); }, true},
+         {"priority", [](const PagingRow& row) { return row.priority; }},
+         {"age_s", ageOf},
+         {"reason",
+          [&](const PagingRow& row) { return reason(*view.planet, row, state.shownView, ageOf(row)); }}}));
 }
 
 void loadingTable(const EditorView& view, PagingPanelState& state, Commands& commands) {
@@ -510,7 +567,14 @@ void loadingTable(const EditorView& view, PagingPanelState& state, Commands& com
         cell(bytesText(loading[row].bytes));
         cell(latencyText(loading[row].seconds));
     });
-    ImGui::EndTable();
+    using Load = planet::LoadInProgress;
+    endTable(
+        exportTable<Load>("paging loading", loading.size(), [&](std::size_t row) { return loading[row]; },
+                          {{"kind", [](const Load& load) { return kindText(load.kind); }, true},
+                           {"parent", [](const Load& load) { return planet::toString(load.parent); }, true},
+                           {"priority", [](const Load& load) { return load.priority; }},
+                           {"size_bytes", [](const Load& load) { return load.bytes; }},
+                           {"elapsed_s", [](const Load& load) { return load.seconds; }}}));
 }
 
 struct OutcomeLook {
@@ -534,6 +598,10 @@ OutcomeLook lookOf(planet::PagingOutcome outcome) {
 bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
     if (state.onlyMerged && event.timesAsked < 2) return false;
     if (!isShown(event.kind, state.shownKind)) return false;
+    if (!state.filter.empty() &&
+        !passes(state.filter.view(),
+                {planet::toString(event.parent), kindText(event.kind), lookOf(event.outcome).name}))
+        return false;
     switch (event.outcome) {
         case planet::PagingOutcome::Loaded:
             return state.showLoaded;
@@ -548,6 +616,8 @@ bool isShown(const planet::PagingEvent& event, const PagingPanelState& state) {
 }
 
 void historyFilter(const EditorView& view, PagingPanelState& state) {
+    filterBox(state.filter, "requests");
+    sameLineIfRoom(checkboxWidth("Loaded"));
     ImGui::Checkbox("Loaded", &state.showLoaded);
     tooltip("Blocks read and made resident.");
     sameLineIfRoom(checkboxWidth("Failed"));
@@ -586,16 +656,9 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
         if (isShown(*event, state)) shown.push_back(&*event);
     if (shown.empty())
         return emptyState(history.empty() ? "No request has finished yet." : "No requests of this kind.");
+    const HitHighlight highlight(state.filter);
     const std::string chunk = widestChunkName(view);
-    const std::array columns = {TableColumn{"Outcome", 1.1f, nullptr, "cancelled"},
-                                TableColumn{"Parent", 1.7f, nullptr, chunk.c_str()},
-                                TableColumn{"Waited", 1, nullptr, "99.9 ms"},
-                                TableColumn{"Reading", 1, nullptr, "99.9 ms"},
-                                TableColumn{"Size", 1, nullptr, "123 KiB"},
-                                TableColumn{"Requests", 0.7f},
-                                TableColumn{"Finished", 1.2f, nullptr, "59 min 59 s ago"}};
-    const std::vector<TableColumn> all = withKind(view, columns, 1);
-    if (!beginWideTable("history", all)) return;
+    if (!beginWideTable("history", historyColumns(view, chunk))) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const planet::PagingEvent& event = *shown[row];
         const std::optional<std::size_t> plain = withoutKind(view, column, 1);
@@ -618,7 +681,20 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
         }
     };
     tableRows(shown.size(), key, [&](std::size_t row) { historyRow(view, *shown[row], commands); });
-    ImGui::EndTable();
+    using Event = planet::PagingEvent;
+    const auto wasRead = [](const Event& event) { return event.outcome == planet::PagingOutcome::Loaded; };
+    endTable(exportTable<Event>(
+        "paging history", shown.size(), [&](std::size_t row) { return *shown[row]; },
+        {{"outcome", [](const Event& event) { return lookOf(event.outcome).name; }},
+         {"kind", [](const Event& event) { return kindText(event.kind); }, true},
+         {"parent", [](const Event& event) { return planet::toString(event.parent); }, true},
+         {"waited_s", [](const Event& event) { return event.waitedS; }},
+         {"reading_s",
+          [=](const Event& event) { return wasRead(event) ? ExportCell(event.readS) : ExportCell(); }},
+         {"size_bytes",
+          [=](const Event& event) { return wasRead(event) ? ExportCell(event.bytes) : ExportCell(); }},
+         {"requests", [](const Event& event) { return event.timesAsked; }},
+         {"finished_at_s", [](const Event& event) { return event.atS; }, true}}));
 }
 
 // Plots.
@@ -652,7 +728,7 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
                historyValues(view.frames.history, [](const FrameStats& s) { return s.paging.queued; })},
         Series{"loading", seriesColour(1),
                historyValues(view.frames.history, [](const FrameStats& s) { return s.paging.loading; })}};
-    linePlot("queueLength", times, queue, "", 0, lines);
+    linePlot("queue length", times, queue, "", 0, lines);
     constexpr double windowS = 0.5;
     const auto read = historyValues<double>(view.frames.history, [](const FrameStats& s) {
         return static_cast<double>(s.paging.bytesRead()) / 1e6;
@@ -670,7 +746,7 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
         });
         rate.push_back({"normals", seriesColour(4), growthPerS(times, normals, windowS)});
     }
-    linePlot("bytesPerS", times, rate, "MB/s", 0, lines);
+    linePlot("read rate", times, rate, "MB/s", 0, lines);
     latencyHistogram(state, lines);
 }
 
@@ -693,7 +769,7 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
     tooltip("Blocks that could not be read: those that will be retried, and those that failed permanently.");
     state.failedShown = open;
     if (!open) return;
-    failedTable(view, state.sample.failed, commands);
+    failedTable(view, state.sample.failed, state.filter, commands);
     ImGui::EndTabItem();
 }
 
@@ -735,14 +811,28 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     refresh(view, state);
     const bool wide = hasWideRoom();
     constexpr float tableLines = 13;
-    const std::array columns = {Column{"Paging", 1.2f, 0,
-                                       [&] {
-                                           pagingControls(view, control, settings, commands);
-                                           if (wide && section("I/O fault injection"))
-                                               badDisk(control, settings.paging);
-                                       }},
-                                Column{"Requests", 2, tableLines, [&] { tables(view, state, commands); }},
-                                Column{"Plots", 0.95f, 0, [&] { plots(view, state, wide); }}};
+    const float font = ImGui::GetFontSize();
+    const std::string chunk = widestChunkName(view);
+    const float widestTable =
+        std::max(listTableWidth(queueColumns(view, chunk)), listTableWidth(historyColumns(view, chunk)));
+    const std::array columns = {Column{.title = "Paging",
+                                       .share = 1.2f,
+                                       .draw =
+                                           [&] {
+                                               pagingControls(view, control, settings, commands);
+                                               if (wide && section("I/O fault injection"))
+                                                   badDisk(control, settings.paging);
+                                           },
+                                       .wanted = 17 * font},
+                                Column{.title = "Requests",
+                                       .share = 2,
+                                       .stackedLines = tableLines,
+                                       .draw = [&] { tables(view, state, commands); },
+                                       .wanted = widestTable},
+                                Column{.title = "Plots",
+                                       .share = 0.95f,
+                                       .draw = [&] { plots(view, state, wide); },
+                                       .wanted = 13 * font}};
     drawColumns("paging", columns);
     if (!wide && section("I/O fault injection")) badDisk(control, settings.paging);
 }

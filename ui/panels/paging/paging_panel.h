@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ui/model/editor_view.h"
+#include "ui/model/text_filter.h"
 
 namespace worldy::ui {
 
@@ -31,6 +32,7 @@ struct PagingPanelState {
     bool showCancelled = true;
     bool showEvicted = true;
     bool onlyMerged = false;        // shows only requests made more than once
+    TextFilter filter{};            // of the queue, of finished requests and of failed blocks
     bool failedShown = false;       // the list of failed blocks was shown in the last frame
     bool latencyOfReading = false;  // the histogram shows read latency; otherwise total latency
 

@@ -86,8 +86,6 @@ const char* kindOf(const LayerRow& row) {
 
 void layerRow(const EditorView& view, const LayerRow& row, std::size_t index, SourcesPanelState& state,
               ListRequest& request) {
-    ImGui::PushID(static_cast<int>(index));
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
     chip(view.sources, row);
     ImGui::SameLine();
@@ -124,7 +122,6 @@ void layerRow(const EditorView& view, const LayerRow& row, std::size_t index, So
     cell(row.edited ? joinText(row.edited->join) : row.read ? joinText(row.read->join) : "", dim);
     cell(kindOf(row), dim);
     cell(broken ? fmt::format("{}", row.read->skipped.size()) : "", palette().bad);
-    ImGui::PopID();
 }
 
 ListRequest layerList(const EditorView& view, const std::vector<LayerRow>& rows, SourcesPanelState& state) {
@@ -139,8 +136,33 @@ ListRequest layerList(const EditorView& view, const std::vector<LayerRow>& rows,
         TableColumn{"Broken", 0, "Files that could not be read and were left out.", nullptr, false}};
     ListRequest request;
     if (!beginListTable("source layers", columns, rows.size())) return request;
-    for (std::size_t i = rows.size(); i-- > 0;) layerRow(view, rows[i], i, state, request);
-    ImGui::EndTable();
+    for (std::size_t i = rows.size(); i-- > 0;)
+        tableRow(i, [&] { layerRow(view, rows[i], i, state, request); });
+    const double radiusM = view.planet->tree().shape.radiusM;
+    const auto spacing = [=](const LayerRow& row) {
+        return row.read && row.read->spacingRad > 0 ? ExportCell(row.read->spacingRad * radiusM)
+                                                    : ExportCell();
+    };
+    const auto voids = [](const LayerRow& row) {
+        return row.read && row.read->sampleCount > 0
+                   ? ExportCell(static_cast<double>(row.read->missingCount) /
+                                static_cast<double>(row.read->sampleCount))
+                   : ExportCell();
+    };
+    endTable(exportTable<LayerRow>(
+        "source layers", rows.size(), [&](std::size_t row) { return rows[row]; },
+        {{"on", [](const LayerRow& row) { return !row.edited || row.edited->on; }},
+         {"layer", [](const LayerRow& row) { return row.name; }, true},
+         {"spacing_m", spacing},
+         {"void_share", voids},
+         {"join",
+          [](const LayerRow& row) {
+              return row.edited ? joinText(row.edited->join) : row.read ? joinText(row.read->join) : "";
+          }},
+         {"kind", kindOf},
+         {"broken_files", [](const LayerRow& row) {
+              return row.read ? ExportCell(row.read->skipped.size()) : ExportCell();
+          }}}));
     return request;
 }
 

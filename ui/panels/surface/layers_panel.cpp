@@ -252,8 +252,8 @@ void layersSections(const EditorView& view, LayersPanelState& state, const Setti
         layerControls(list[state.chosen], wrong ? view.layers.problems[state.chosen] : std::string(),
                       commands);
     }
-    if (section(view.layers.overGround || !view.layers.under ? "Weights under the pointer###weights"
-                                                             : "Weights last under the pointer###weights"))
+    if (section(view.layers.overGround || !view.layers.under ? "Weights###weights"
+                                                             : "Last weights###weights"))
         readout(view, layers);
     ImGui::PopID();
 }

@@ -217,7 +217,7 @@ void rampEditor(const EditorView& view, SurfacePanelState& state, SurfaceSetting
     state.selectedStop = std::min(state.selectedStop, static_cast<int>(ramp.size()) - 1);
     std::optional<double> addedM;
     if (ramp.empty()) {
-        ImGui::TextDisabled("The built-in ramp is used.");
+        wrappedText("The built-in ramp is used.", palette().dim);
     } else {
         addedM = previewBar(ramp, state.selectedStop);
         rampStops(ramp, state.selectedStop);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -41,8 +42,12 @@ std::optional<std::size_t> sweepChart(std::span<const SweepPoint> points, SweepC
         }
         lines.push_back({series.name(), colour, std::move(series.points)});
     }
+    constexpr std::array costNames = {"mean_triangles", "median_frame_ms", "most_resident_mib"};
+    const char* const costName = costNames[static_cast<std::size_t>(cost)];
     return frontChart(
-        {.points = plotted,
+        {.name = "sweep plot",
+         .costName = costName,
+         .points = plotted,
          .series = lines,
          .errorName = "max measured error, px",
          .shortErrorName = "error, px",

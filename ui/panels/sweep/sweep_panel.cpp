@@ -407,10 +407,13 @@ void sweepPanel(const EditorView& view, SweepPanelState& state, ViewSettings& se
         if (!apart) run();
     };
     constexpr float plotLines = 14, tableLines = 14;
-    std::vector<Column> columns = {{"Settings", 1.15f, 0, controls},
-                                   {"Cost and error", 1.2f, points.empty() ? 4.0f : plotLines, plot},
-                                   {"Points", 1.6f, points.empty() ? 3.0f : tableLines, table}};
-    if (apart) columns.insert(columns.begin() + 1, Column{"Run", 0.9f, 0, run});
+    const float font = ImGui::GetFontSize();
+    const float tableWanted = points.empty() ? 0 : sweepTableWidth();
+    std::vector<Column> columns = {
+        {"Settings", 1.15f, 0, controls, 0, 15 * font},
+        {"Cost and error", 1.2f, points.empty() ? 4.0f : plotLines, plot, 0, 15 * font},
+        {"Points", 1.6f, points.empty() ? 3.0f : tableLines, table, 0, tableWanted}};
+    if (apart) columns.insert(columns.begin() + 1, Column{"Run", 0.9f, 0, run, 0, 13 * font});
     drawColumns("sweep", columns);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/base/text.h"
+#include "app/measure/sweep.h"
 #include "ui/kit/front_chart.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
@@ -24,6 +25,7 @@ struct SweepColumn {
     double (*value)(const SweepPoint&);
     std::string (*text)(double value);
     const char* explanation;
+    const char* widest;
 };
 
 std::string whole(double value) {
@@ -41,42 +43,43 @@ std::string bound(double px) {
 constexpr std::array<SweepColumn, 11> sweepColumns = {{
     {"Chunk", 1.15f, [](const SweepPoint& p) { return double{1} * p.chunkSize; }, whole,
      "Vertices along a chunk side. Ringed: on the Pareto front; no other point is both cheaper and more "
-     "accurate."},
+     "accurate.",
+     "xx 129"},
     {"Metric", 1.2f, [](const SweepPoint& p) { return p.metric == planet::ErrorMetric::Tight ? 1.0 : 0.0; },
      [](double tight) { return std::string(tight > 0 ? "tight" : "additive"); },
-     "Geometric error metric used for selection."},
-    {"τ", 0.7f, [](const SweepPoint& p) { return p.tauPx; }, fine, "Tolerance in pixels."},
+     "Geometric error metric used for selection.", "additive"},
+    {"τ", 0.7f, [](const SweepPoint& p) { return p.tauPx; }, fine, "Tolerance in pixels.", "0.123"},
     {"Triangles", 1.2f, [](const SweepPoint& p) { return p.figures.meanTriangles; }, countText,
-     "Ground triangles and skirt triangles, mean over the sample frames."},
+     "Ground triangles and skirt triangles, mean over the sample frames.", "99.9 M"},
     {"Measured", 1.2f, [](const SweepPoint& p) { return p.figures.worstMeasuredPx; }, fine,
-     "Largest true error of any finest sample in any sample frame, in facing pixels."},
+     "Largest true error of any finest sample in any sample frame, in facing pixels.", "0.000123"},
     {"99 %", 0.8f, [](const SweepPoint& p) { return p.figures.p99MeasuredPx; }, fine,
-     "99 % of the chunks of all sample frames have no larger true error, in pixels."},
+     "99 % of the chunks of all sample frames have no larger true error, in pixels.", "0.000123"},
     {"ε", 0.9f, [](const SweepPoint& p) { return p.figures.worstEpsPx; }, bound,
      "Largest predicted error of a drawn chunk's own surface, in pixels. It exceeds the tolerance where the "
-     "data has no finer level. None: the camera was inside the bounds of a chunk."},
+     "data has no finer level. None: the camera was inside the bounds of a chunk.",
+     "0.000123"},
     {"Bound", 0.9f, [](const SweepPoint& p) { return p.figures.worstDrawnBoundPx; }, bound,
      "Largest drawn bound, in pixels: the bound of the error of what is drawn, including morphing. None: the "
-     "camera was inside the bounds of a chunk, where there is no bound."},
+     "camera was inside the bounds of a chunk, where there is no bound.",
+     "0.000123"},
     {"MiB", 0.8f, [](const SweepPoint& p) { return p.figures.mostResidentMiB; }, fine,
-     "Largest memory of resident chunks, CPU and GPU together, in MiB."},
+     "Largest memory of resident chunks, CPU and GPU together, in MiB.", "1.23e+03"},
     {"Frame", 0.9f, [](const SweepPoint& p) { return p.figures.medianFrameMs; },
      [](double ms) { return fmt::format("{:.3g} ms", ms); },
      "Median time of selection and drawing, including the GPU. It is longer than without a window, because "
-     "the window draws too."},
+     "the window draws too.",
+     "12.3 ms"},
     {"Violations", 1.2f, [](const SweepPoint& p) { return static_cast<double>(p.figures.violations); }, whole,
-     "Chunks whose true error exceeds the drawn bound. Must be 0."},
+     "Chunks whose true error exceeds the drawn bound. Must be 0.", "0"},
 }};
 
 void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
               std::optional<std::size_t>& selected) {
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushID(static_cast<int>(index));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##row", selected == index, ImGuiSelectableFlags_SpanAllColumns)) selected = index;
     noteItem(fmt::format("Row {}", index));
-    ImGui::PopID();
     const float line = ImGui::GetTextLineHeight();
     frontMark({at.x + line * 0.5f, at.y + line * 0.5f}, colour, point.onFront);
     ImGui::SameLine(line * 1.2f);
@@ -89,13 +92,33 @@ void pointRow(const SweepPoint& point, std::size_t index, const ImVec4& colour,
     }
 }
 
-}  // namespace
+ExportTable sweepExport(const char* name, std::span<const SweepPoint> points) {
+    ExportTable table{.name = name, .rows = points.size()};
+    const std::span<const SweepFigure> figures = sweepFigures();
+    for (const SweepFigure& figure : figures) table.columns.push_back({figure.name});
+    table.cell = [=](std::size_t row, std::size_t column) -> ExportCell {
+        return std::visit([](const auto& value) { return ExportCell(value); },
+                          figures[column].of(points[row]));
+    };
+    return table;
+}
 
-void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected) {
+std::array<TableColumn, sweepColumns.size()> tableColumns() {
     std::array<TableColumn, sweepColumns.size()> columns{};
     std::transform(sweepColumns.begin(), sweepColumns.end(), columns.begin(), [](const SweepColumn& column) {
-        return TableColumn{column.title, column.share, column.explanation, "additive"};
+        return TableColumn{column.title, column.share, column.explanation, column.widest};
     });
+    return columns;
+}
+
+}  // namespace
+
+float sweepTableWidth() {
+    return listTableWidth(tableColumns());
+}
+
+void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected) {
+    const std::array columns = tableColumns();
     if (!beginWideTable("points", columns, 1)) return;
     const std::vector<SweepSeries> series = seriesOf(points);
     std::vector<std::size_t> seriesIndex(points.size());
@@ -106,8 +129,8 @@ void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& 
         return sweepColumns[column].value(points[row]);
     };
     for (const std::size_t i : tableOrder(points.size(), chosenSort(), key))
-        pointRow(points[i], i, seriesColour(seriesIndex[i]), selected);
-    ImGui::EndTable();
+        tableRow(i, [&] { pointRow(points[i], i, seriesColour(seriesIndex[i]), selected); });
+    endTable(sweepExport("sweep", points));
 }
 
 }  // namespace worldy::ui

@@ -8,6 +8,9 @@
 
 namespace worldy::ui {
 
+// Returns the width at which the table needs no horizontal scrolling, pixels.
+float sweepTableWidth();
+
 // Fills the remaining room. A click on a row selects its point.
 void sweepTable(std::span<const SweepPoint> points, std::optional<std::size_t>& selected);
 

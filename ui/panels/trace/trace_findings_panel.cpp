@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/base/text.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
@@ -74,10 +75,18 @@ void faults(const EditorView& view, TraceFindingsPanelState& state, Commands& co
         "thrash: a node splits and merges again and again. late_page: data arrives late or never. "
         "starvation: a node is drawn too coarse for long for want of data. level_step: neighbours differ by "
         "more than one level. too_coarse, too_fine: selection ignores its own tolerance.");
+    filterBox(state.filter, "faults");
     std::vector<const planet::TraceFault*> rows;
-    for (const planet::TraceFault& fault : report.faults)
-        if (state.fault == 0 || fault.kind == faultKinds[static_cast<std::size_t>(state.fault) - 1])
+    for (const planet::TraceFault& fault : report.faults) {
+        const bool isKind =
+            state.fault == 0 || fault.kind == faultKinds[static_cast<std::size_t>(state.fault) - 1];
+        if (isKind && (state.filter.empty() ||
+                       passes(state.filter.view(), {planet::traceFaultName(fault.kind), fault.sentence,
+                                                    traceNodeName(view, fault.node)})))
             rows.push_back(&fault);
+    }
+    if (rows.empty()) return emptyState("No fault matches the filter.");
+    const HitHighlight highlight(state.filter);
     constexpr std::array columns = {
         TableColumn{"Fault", 0.5f, "Kind of the fault.", "drawn_twice"},
         TableColumn{"Frame", 0.4f, "The first frame. A click shows the frame and selects the node.",
@@ -98,6 +107,7 @@ void faults(const EditorView& view, TraceFindingsPanelState& state, Commands& co
         ImGui::TableNextColumn();
         const bool isShown = view.trace.selected == fault.node && view.trace.frame &&
                              view.trace.frame->frame.number == fault.firstFrame;
+        highlightHits(planet::traceFaultName(fault.kind));
         if (ImGui::Selectable(planet::traceFaultName(fault.kind), isShown,
                               ImGuiSelectableFlags_SpanAllColumns))
             goTo(fault.firstFrame, fault.view, fault.node, commands);
@@ -108,7 +118,18 @@ void faults(const EditorView& view, TraceFindingsPanelState& state, Commands& co
         cell(traceNodeName(view, fault.node));
         cell(inFont(fault.sentence));
     });
-    ImGui::EndTable();
+    // The names are those of worldy trace --json.
+    using Fault = planet::TraceFault;
+    endTable(exportTable<Fault>(
+        "trace faults", rows.size(), [&](std::size_t row) { return *rows[row]; },
+        {{"kind", [](const Fault& fault) { return planet::traceFaultName(fault.kind); }, true},
+         {"first_frame", [](const Fault& fault) { return fault.firstFrame; }, true},
+         {"last_frame", [](const Fault& fault) { return fault.lastFrame; }},
+         {"frames", [](const Fault& fault) { return fault.frames; }},
+         {"node", [&](const Fault& fault) { return traceNodeName(view, fault.node); }, true},
+         {"value", [](const Fault& fault) { return fault.value; }},
+         {"limit", [](const Fault& fault) { return fault.limit; }},
+         {"sentence", [](const Fault& fault) { return fault.sentence; }}}));
 }
 
 // ---- switches ----
@@ -133,11 +154,18 @@ void switches(const EditorView& view, TraceFindingsPanelState& state, Commands& 
                 "unknown: the error or the limit is not known.");
     checkbox("Jumps only", state.jumpsOnly, false,
              "Leaves out the switches of nodes that were morphed into the other level's surface.");
+    filterBox(state.filter, "switches");
     for (const planet::TraceSwitch* const one : ofView) {
         const bool isCause =
             state.cause == 0 || one->cause == causes[static_cast<std::size_t>(state.cause) - 1];
-        if (isCause && !(state.jumpsOnly && one->isMorphed)) rows.push_back(one);
+        if (!isCause || (state.jumpsOnly && one->isMorphed)) continue;
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {traceNodeName(view, one->node), one->isSplit ? "split" : "merged",
+                                         planet::traceSwitchCauseName(one->cause)}))
+            rows.push_back(one);
     }
+    if (rows.empty() && !state.filter.empty()) return emptyState("No switch matches the filter.");
+    const HitHighlight highlight(state.filter);
     if (history.unlistedSwitches > 0)
         wrappedText(fmt::format("{} later switches are beyond the limit of the list.",
                                 countText(static_cast<double>(history.unlistedSwitches))),
@@ -201,7 +229,18 @@ void switches(const EditorView& view, TraceFindingsPanelState& state, Commands& 
         cell(one.isMorphed ? "yes" : "no", one.isMorphed ? palette().dim : palette().text);
         cell(planet::traceSwitchCauseName(one.cause));
     });
-    ImGui::EndTable();
+    using Switch = planet::TraceSwitch;
+    endTable(exportTable<Switch>(
+        "trace switches", rows.size(), [&](std::size_t row) { return *rows[row]; },
+        {{"frame", [](const Switch& one) { return one.frame; }, true},
+         {"time_s", [](const Switch& one) { return one.timeS; }},
+         {"node", [&](const Switch& one) { return traceNodeName(view, one.node); }, true},
+         {"switch", [](const Switch& one) { return one.isSplit ? "split" : "merged"; }},
+         {"error_px", [](const Switch& one) { return one.errorPx; }},
+         {"limit_px", [](const Switch& one) { return one.limitPx; }},
+         {"size_px", [](const Switch& one) { return one.sizePx; }},
+         {"morphed", [](const Switch& one) { return one.isMorphed; }},
+         {"cause", [](const Switch& one) { return planet::traceSwitchCauseName(one.cause); }}}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/widgets.h"
 
@@ -9,6 +10,7 @@ namespace worldy::ui {
 
 void traceNodeLink(std::uint64_t id, const EditorView& view, Commands& commands, ImGuiSelectableFlags flags) {
     const std::string name = traceNodeName(view, id);
+    highlightHits(name);
     if (ImGui::Selectable(name.c_str(), view.trace.selected == id, flags))
         commands.push_back(SelectTraceNode{id});
     noteItem(name);

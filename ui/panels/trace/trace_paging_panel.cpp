@@ -10,6 +10,7 @@
 #include "app/base/plot_scale.h"
 #include "app/base/text.h"
 #include "ui/kit/columns.h"
+#include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/tables.h"
@@ -31,10 +32,20 @@ std::string secondsText(double seconds) {
     return std::isnan(seconds) ? "-" : millisecondsText(1000 * seconds);
 }
 
-void queueTable(const EditorView& view, Commands& commands) {
+void queueTable(const EditorView& view, TracePagingPanelState& state, Commands& commands) {
     const TracedFrame& frame = *view.trace.frame;
     wrappedText(fmt::format("{} requests wait or are being loaded", frame.queued), palette().dim);
     if (frame.queue.empty()) return;
+    filterBox(state.filter, "requests");
+    std::vector<const TracedRequest*> rows;
+    for (const TracedRequest& of : frame.queue) {
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {traceNodeName(view, of.node.id), kindName(view, of.kind),
+                                         of.isStarted ? "being loaded" : "requested"}))
+            rows.push_back(&of);
+    }
+    if (rows.empty()) return emptyState("No request matches the filter.");
+    const HitHighlight highlight(state.filter);
     constexpr std::array columns = {
         TableColumn{"Node", 1.4f, "The node that was requested.", "z_pos/12/4095/4095"},
         TableColumn{"Kind", 0.8f, "Kind of data, as the engine named it."},
@@ -43,14 +54,14 @@ void queueTable(const EditorView& view, Commands& commands) {
         TableColumn{"Priority", 0.7f, "As the engine told it; larger is more urgent."}};
     if (!beginWideTable("queue", columns)) return;
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
-        const TracedRequest& of = frame.queue[row];
+        const TracedRequest& of = *rows[row];
         if (column == 0) return traceNodeName(view, of.node.id);
         if (column == 1) return static_cast<double>(of.kind);
         if (column == 2) return static_cast<double>(of.isStarted);
         return column == 3 ? of.ageS : static_cast<double>(of.priority);
     };
-    tableRows(frame.queue.size(), key, [&](std::size_t row) {
-        const TracedRequest& of = frame.queue[row];
+    tableRows(rows.size(), key, [&](std::size_t row) {
+        const TracedRequest& of = *rows[row];
         ImGui::TableNextColumn();
         traceNodeLink(of.node.id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
         cell(kindName(view, of.kind));
@@ -58,7 +69,14 @@ void queueTable(const EditorView& view, Commands& commands) {
         cell(secondsText(of.ageS));
         cell(std::isnan(of.priority) ? "-" : fmt::format("{:.3g}", static_cast<double>(of.priority)));
     });
-    ImGui::EndTable();
+    using Request = TracedRequest;
+    endTable(exportTable<Request>(
+        "trace queue", rows.size(), [&](std::size_t row) { return *rows[row]; },
+        {{"node", [&](const Request& of) { return traceNodeName(view, of.node.id); }, true},
+         {"kind", [&](const Request& of) { return kindName(view, of.kind); }, true},
+         {"state", [](const Request& of) { return of.isStarted ? "being loaded" : "requested"; }},
+         {"age_s", [](const Request& of) { return of.ageS; }},
+         {"priority", [](const Request& of) { return of.priority; }}}));
 }
 
 const char* stepText(planet::TraceStep step) {
@@ -67,10 +85,21 @@ const char* stepText(planet::TraceStep step) {
 }
 
 // The steps of paging since the frame before.
-void stepTable(const EditorView& view, Commands& commands) {
+void stepTable(const EditorView& view, TracePagingPanelState& state, Commands& commands) {
     const TracedFrame& frame = *view.trace.frame;
     wrappedText(fmt::format("{} steps since the frame before", frame.frame.paged.size()), palette().dim);
     if (frame.frame.paged.empty()) return;
+    filterBox(state.filter, "steps");
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < frame.frame.paged.size(); ++row) {
+        const planet::TracePagedStep& step = frame.frame.paged[row];
+        if (state.filter.empty() ||
+            passes(state.filter.view(), {traceNodeName(view, frame.pagedIds[row]), stepText(step.event.step),
+                                         kindName(view, step.event.kind), frame.reasons[row]}))
+            rows.push_back(row);
+    }
+    if (rows.empty()) return emptyState("No step matches the filter.");
+    const HitHighlight highlight(state.filter);
     constexpr std::array columns = {TableColumn{"Node", 1.4f, "The node.", "z_pos/12/4095/4095"},
                                     TableColumn{"Step", 0.8f, "What happened.", "cancelled"},
                                     TableColumn{"Kind", 0.8f, "Kind of data, as the engine named it."},
@@ -87,7 +116,8 @@ void stepTable(const EditorView& view, Commands& commands) {
         const auto name = frame.threads.find(step.event.thread);
         return name == frame.threads.end() ? fmt::format("{}", step.event.thread) : name->second;
     };
-    tableRows(frame.frame.paged.size(), [&](std::size_t row) {
+    tableRows(rows.size(), [&](std::size_t shownRow) {
+        const std::size_t row = rows[shownRow];
         const planet::TracePagedStep& step = frame.frame.paged[row];
         ImGui::TableNextColumn();
         traceNodeLink(frame.pagedIds[row], view, commands, ImGuiSelectableFlags_SpanAllColumns);
@@ -98,7 +128,28 @@ void stepTable(const EditorView& view, Commands& commands) {
         cell(thread(step));
         cell(frame.reasons[row], palette().bad);
     });
-    ImGui::EndTable();
+    const std::vector<planet::TracePagedStep>& steps = frame.frame.paged;
+    ExportTable table{.name = "trace steps",
+                      .columns = {{"node"}, {"step"}, {"kind"}, {"latency_s"}, {"thread"}, {"reason"}},
+                      .rows = rows.size()};
+    table.cell = [&](std::size_t shownRow, std::size_t column) -> ExportCell {
+        const std::size_t row = rows[shownRow];
+        switch (column) {
+            case 0:
+                return traceNodeName(view, frame.pagedIds[row]);
+            case 1:
+                return stepText(steps[row].event.step);
+            case 2:
+                return kindName(view, steps[row].event.kind);
+            case 3:
+                return latencyS(steps[row]);
+            case 4:
+                return thread(steps[row]);
+            default:
+                return frame.reasons[row];
+        }
+    };
+    endTable(table);
 }
 
 void kindTable(const EditorView& view) {
@@ -129,7 +180,19 @@ void kindTable(const EditorView& view) {
         cell(secondsText(of.latencyS.median));
         cell(secondsText(of.latencyS.p99));
     });
-    ImGui::EndTable();
+    using Kind = planet::TraceKindReport;
+    endTable(exportTable<Kind>(
+        "trace paging", kinds.size(), [&](std::size_t row) { return kinds[row]; },
+        {{"kind", [&](const Kind& of) { return kindName(view, static_cast<std::size_t>(of.kind)); }, true},
+         {"requested", [](const Kind& of) { return of.requested; }},
+         {"arrived", [](const Kind& of) { return of.arrived; }},
+         {"cancelled", [](const Kind& of) { return of.cancelled; }},
+         {"failed", [](const Kind& of) { return of.failed; }},
+         {"evicted", [](const Kind& of) { return of.evicted; }},
+         {"resident",
+          [&](const Kind& of) { return view.trace.frame->resident[static_cast<std::size_t>(of.kind)]; }},
+         {"median_latency_ms", [](const Kind& of) { return 1000 * of.latencyS.median; }},
+         {"p99_latency_ms", [](const Kind& of) { return 1000 * of.latencyS.p99; }}}));
 }
 
 void latencies(const EditorView& view, TracePagingPanelState& state) {
@@ -150,7 +213,7 @@ void latencies(const EditorView& view, TracePagingPanelState& state) {
     const auto& counts = history.latencies[static_cast<std::size_t>(state.kind)];
     const bool isAny = std::ranges::any_of(counts, [](float count) { return count > 0; });
     if (!isAny) return wrappedText("No latency is known yet.", palette().dim);
-    histogram("latency", counts, "0.1 ms", "100 s", {}, 4, [](double position) {
+    histogram("trace latencies", counts, "0.1 ms", "100 s", {}, 4, [](double position) {
         return millisecondsText(1000 *
                                 logarithmicValue(position, fastestTracedLatencyS, slowestTracedLatencyS));
     });
@@ -194,18 +257,26 @@ void starvationTable(const EditorView& view, Commands& commands) {
         cell(fmt::format("{}", of.mostNodes));
         cell(fmt::format("{:.2f} px", of.worstErrorPx));
     });
-    ImGui::EndTable();
+    using Starvation = TracedStarvation;
+    endTable(
+        exportTable<Starvation>("time until sharp", rows.size(), [&](std::size_t row) { return *rows[row]; },
+                                {{"first_frame", [](const Starvation& of) { return of.firstFrame; }, true},
+                                 {"last_frame", [](const Starvation& of) { return of.lastFrame; }},
+                                 {"until_sharp_s", [](const Starvation& of) { return of.untilS - of.fromS; }},
+                                 {"over", [](const Starvation& of) { return of.isOver; }},
+                                 {"max_nodes", [](const Starvation& of) { return of.mostNodes; }},
+                                 {"max_error_px", [](const Starvation& of) { return of.worstErrorPx; }}}));
 }
 
-void queueTabs(const EditorView& view, Commands& commands) {
+void queueTabs(const EditorView& view, TracePagingPanelState& state, Commands& commands) {
     if (!ImGui::BeginTabBar("queue tabs")) return;
     if (ImGui::BeginTabItem("Queue")) {
-        queueTable(view, commands);
+        queueTable(view, state, commands);
         ImGui::EndTabItem();
     }
     noteItem("Queue");
     if (ImGui::BeginTabItem("Steps")) {
-        stepTable(view, commands);
+        stepTable(view, state, commands);
         ImGui::EndTabItem();
     }
     noteItem("Steps");
@@ -219,7 +290,7 @@ void tracePagingPanel(const EditorView& view, TracePagingPanelState& state, Comm
     if (!view.trace.history) return emptyState("Reading the trace...");
     const float font = ImGui::GetFontSize();
     const std::array columns = {
-        Column{"Queue", 1, 12, [&] { queueTabs(view, commands); }, 22 * font},
+        Column{"Queue", 1, 12, [&] { queueTabs(view, state, commands); }, 22 * font},
         Column{"Latencies", 1, 0,
                [&] {
                    kindTable(view);

@@ -11,6 +11,7 @@
 
 #include "app/base/plot_scale.h"
 #include "app/base/text.h"
+#include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
@@ -201,6 +202,22 @@ void mouse(const Axis& axis, double beginS, double endS, TraceTimelineState& sta
                 .c_str());
 }
 
+ExportTable samplesOf(const std::vector<TracedSample>& samples, const std::vector<Strip>& strips) {
+    ExportTable table{.name = "trace timeline", .columns = {{"frame"}, {"time_s"}}, .rows = samples.size()};
+    std::vector<const StripSeries*> all;
+    for (const Strip& strip : strips) {
+        for (const StripSeries& series : strip.series) {
+            table.columns.push_back({fmt::format("{} ({})", series.name, strip.unit)});
+            all.push_back(&series);
+        }
+    }
+    table.cell = [&samples, all = std::move(all)](std::size_t row, std::size_t column) -> ExportCell {
+        if (column == 0) return samples[row].frame;
+        return column == 1 ? ExportCell(samples[row].timeS) : ExportCell(all[column - 2]->value(row));
+    };
+    return table;
+}
+
 }  // namespace
 
 void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& commands) {
@@ -224,6 +241,8 @@ void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& 
     ImGui::InvisibleButton("timeline", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     noteItem("Timeline");
+    // The right button moves the timeline, so its menu is behind the button in its corner.
+    exportPlot("timeline", samplesOf(history->samples, strips), false);
     const Axis axis{history->samples, beginS + state.from * (endS - beginS),
                     beginS + state.to * (endS - beginS), corner.x, size.x};
     mouse(axis, beginS, endS, state, commands);

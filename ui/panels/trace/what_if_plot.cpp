@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/base/plot_scale.h"
+#include "ui/kit/exports.h"
 #include "ui/kit/front_chart.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
@@ -160,6 +161,17 @@ void tell(const WhatIfPlot& plot, std::size_t point) {
     ImGui::EndTooltip();
 }
 
+ExportTable samplesOf(const WhatIfPlot& plot) {
+    ExportTable table{
+        .name = "what if over the flight", .columns = {{"frame"}, {"time_s"}}, .rows = plot.frames.size()};
+    for (const WhatIfLine& line : plot.lines) table.columns.push_back({line.name});
+    table.cell = [&](std::size_t row, std::size_t column) -> ExportCell {
+        if (column == 0) return plot.frames[row];
+        return column == 1 ? plot.timesS[row] : plot.lines[column - 2].values[row];
+    };
+    return table;
+}
+
 }  // namespace
 
 std::optional<std::uint64_t> whatIfPlot(const WhatIfPlot& plot) {
@@ -193,6 +205,7 @@ std::optional<std::uint64_t> whatIfPlot(const WhatIfPlot& plot) {
         if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) clicked = plot.frames[point];
     }
     ImGui::PopClipRect();
+    exportPlot("flight", samplesOf(plot));
     return clicked;
 }
 

@@ -292,7 +292,28 @@ void whatIfTable(std::span<const WhatIfEntry> entries, const EditorView& view,
     };
     tableRows(entries.size(), key,
               [&](std::size_t row) { entryRow(entries[row], row, view, selected, commands); });
-    ImGui::EndTable();
+    // The names are those of worldy trace --what-if --json.
+    using Entry = WhatIfEntry;
+    const auto differ = [](const Entry& e) {
+        return e.row ? ExportCell(e.row->framesThatDiffer) : ExportCell();
+    };
+    endTable(exportTable<Entry>(
+        "what if", entries.size(), [&](std::size_t row) -> const Entry& { return entries[row]; },
+        {{"selection", [](const Entry& e) { return e.name; }, true},
+         {"mean_drawn", [](const Entry& e) { return e.totals->meanDrawn; }},
+         {"max_triangles", [](const Entry& e) { return e.totals->mostTriangles; }},
+         {"max_bytes", [](const Entry& e) { return e.totals->mostBytes; }},
+         {"max_error_px", [](const Entry& e) { return e.totals->worstErrorPx; }},
+         {"max_error_frame", [](const Entry& e) { return e.totals->worstFrame; }},
+         {"max_error_node", [&](const Entry& e) { return traceNodeName(view, e.totals->worstNode); }},
+         {"splits", [](const Entry& e) { return e.totals->splits; }},
+         {"merges", [](const Entry& e) { return e.totals->merges; }},
+         {"unknown_nodes", [](const Entry& e) { return e.totals->unknown; }},
+         {"unknown_frames", [](const Entry& e) { return e.totals->unknownFrames; }},
+         {"waiting_nodes", [](const Entry& e) { return e.totals->waiting; }},
+         {"limited_nodes", [](const Entry& e) { return e.totals->limited; }},
+         {"frames_that_differ", differ},
+         {"on_front", [](const Entry& e) { return e.onFront; }}}));
 }
 
 void disagreementTable(const planet::TraceWhatIfReport& report, std::size_t view, const EditorView& editor,
@@ -338,7 +359,18 @@ void disagreementTable(const planet::TraceWhatIfReport& report, std::size_t view
         return disagreementKey(*listed[row], column);
     };
     tableRows(listed.size(), key, [&](std::size_t row) { disagreementRow(*listed[row], editor, commands); });
-    ImGui::EndTable();
+    using Each = planet::TraceDisagreement;
+    endTable(exportTable<Each>(
+        "disagreements", listed.size(), [&](std::size_t row) { return *listed[row]; },
+        {{"kind", [](const Each& each) { return isCoarse(each) ? "too coarse" : "too fine"; }, true},
+         {"node", [&](const Each& each) { return traceNodeName(editor, each.node); }, true},
+         {"first_frame", [](const Each& each) { return each.firstFrame; }, true},
+         {"last_frame", [](const Each& each) { return each.lastFrame; }},
+         {"frames", [](const Each& each) { return each.frames; }},
+         {"error_px", [](const Each& each) { return each.errorPx; }},
+         {"limit_px", [](const Each& each) { return each.limitPx; }},
+         {"fade", [](const Each& each) { return each.isFade; }},
+         {"sentence", [](const Each& each) { return each.sentence; }}}));
 }
 
 }  // namespace worldy::ui

@@ -1,0 +1,165 @@
+#include "ui/model/note_subjects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/base/text.h"
+#include "planet/sphere/cube_sphere.h"
+
+namespace worldy::ui {
+
+namespace {
+
+// A note at a place that is given in metres from the planet's centre.
+Note noteAt(const EditorView& view, const glm::dvec3& placeM, double exaggeration) {
+    Note note;
+    const planet::Geographic place = planet::geographicFromDirection(placeM);
+    const double radiusM = view.planet->tree().shape.radiusM;
+    note.latitudeDeg = glm::degrees(place.latitudeRad);
+    note.longitudeDeg = glm::degrees(place.longitudeRad);
+    note.heightM = (glm::length(placeM) - radiusM) / exaggeration;
+    note.camera = view.camera.pose;
+    return note;
+}
+
+Note about(Note note, const char* what, std::string measurement) {
+    note.about = what;
+    note.measurement = std::move(measurement);
+    return note;
+}
+
+NoteSubject chunkSubject(const EditorView& view, double exaggeration) {
+    NoteSubject subject{"the selected chunk", std::nullopt, "Select a chunk first."};
+    if (!view.focus.selected) return subject;
+    const planet::ChunkId& id = *view.focus.selected;
+    const double side = std::ldexp(2.0, -id.level);
+    const double u = -1 + side * (id.x + 0.5), v = -1 + side * (id.y + 0.5);
+    const glm::dvec3 direction = planet::sphereFromCube(planet::cubePoint(id.face, u, v));
+    const planet::ChunkTree& tree = view.planet->tree();
+    const double distanceM = tree.shape.radiusM + planet::sampledHeightM(tree, direction);
+    subject.note = about(noteAt(view, direction * distanceM, exaggeration), "chunk", "");
+    subject.note->chunk = planet::toString(id);
+    return subject;
+}
+
+NoteSubject errorSubject(const EditorView& view, double exaggeration) {
+    NoteSubject subject{"the largest true error", std::nullopt, "Measure the true error first."};
+    const ErrorMeasurement* const last = view.instruments.errors.last;
+    if (!last || last->worstFirst.empty()) return subject;
+    const planet::ChunkError& worst = last->report.chunks[last->worstFirst.front()];
+    if (worst.facingPx <= 0) return {subject.label, std::nullopt, "The true error is 0 everywhere."};
+    subject.note = about(noteAt(view, worst.worstM, exaggeration), "true error",
+                         fmt::format("measured {:.3g} px, drawn bound {:.3g} px, error {}", worst.facingPx,
+                                     worst.drawnBoundPx, distanceText(worst.errorM)));
+    subject.note->chunk = planet::toString(worst.id);
+    return subject;
+}
+
+NoteSubject crackSubject(const EditorView& view, double exaggeration) {
+    NoteSubject subject{"the largest edge gap", std::nullopt, "Measure the cracks first."};
+    const CrackMeasurement* const measured = view.instruments.cracks.measured;
+    if (!measured) return subject;
+    if (measured->gaps.empty()) return {subject.label, std::nullopt, "All adjacent edges match."};
+    const planet::EdgeGap& gap = measured->gaps.front();
+    subject.note = about(noteAt(view, gap.placeM, exaggeration), "cracks",
+                         fmt::format("gap {}, {}; {} uncovered pixels in the view", distanceText(gap.gapM),
+                                     pixelsText(gap.facingPx), measured->map.leaking));
+    subject.note->chunk = planet::toString(gap.finer);
+    return subject;
+}
+
+NoteSubject popSubject(const EditorView& view, double exaggeration) {
+    NoteSubject subject{"the largest pop", std::nullopt, "No level change that counts was measured."};
+    if (!view.instruments.pops.meter) return subject;
+    const auto& events = view.instruments.pops.meter->events();
+    const planet::PopEvent* worst = nullptr;
+    for (const planet::PopEvent& event : events) {
+        if (planet::counts(event) && (!worst || planet::isWorsePop(event, *worst))) worst = &event;
+    }
+    if (!worst) return subject;
+    const glm::dvec3& placeM = worst->jump.worstPlaceM;
+    subject.note = about(noteAt(view, placeM, exaggeration), "pops",
+                         fmt::format("jump {}, level {} to {}, {}", pixelsText(worst->jump.largestPx),
+                                     worst->fromLevel, worst->toLevel, planet::popCauseName(worst->cause)));
+    subject.note->camera = planet::poseFromView(worst->view, view.planet->tree().shape.radiusM);
+    subject.note->chunk = planet::toString(worst->chunk);
+    return subject;
+}
+
+NoteSubject precisionSubject(const EditorView& view, double exaggeration) {
+    NoteSubject subject{"the vertex last under the pointer", std::nullopt,
+                        "Show the Precision panel and point at the ground."};
+    const std::optional<ProbedVertex>& vertex = view.instruments.probe.vertex;
+    if (!vertex) return subject;
+    const planet::VertexPrecision& precision = vertex->precision;
+    subject.note = about(noteAt(view, precision.positionM, exaggeration), "precision",
+                         fmt::format("camera-relative float error {:.3g} mm, {:.3g} px",
+                                     1000 * precision.shader.errorM, precision.shader.errorPx));
+    subject.note->chunk = planet::toString(precision.chunk);
+    return subject;
+}
+
+}  // namespace
+
+glm::dvec3 groundInMiddle(const planet::View& view, const planet::ChunkTree& tree) {
+    const glm::dvec3 below = glm::normalize(view.eyeM);
+    const auto groundM = [&](const glm::dvec3& direction) {
+        return tree.shape.radiusM + planet::sampledHeightM(tree, direction);
+    };
+    // The ray meets the sphere of the ground's height there, which is found in a few steps.
+    const glm::dvec3 ahead = -view.back;
+    const double along = glm::dot(view.eyeM, ahead);
+    const double eye2 = glm::dot(view.eyeM, view.eyeM);
+    glm::dvec3 place = below * groundM(below);
+    double radiusM = groundM(below);
+    for (int step = 0; step < 8; ++step) {
+        const double inner = along * along - eye2 + radiusM * radiusM;
+        const double distanceM = -along - std::sqrt(std::max(inner, 0.0));
+        if (inner < 0 || distanceM <= 0) return below * groundM(below);
+        place = view.eyeM + distanceM * ahead;
+        radiusM = groundM(place);
+    }
+    return glm::normalize(place) * radiusM;
+}
+
+glm::dvec3 placeOfNote(const Note& note, double radiusM, double exaggeration) {
+    const glm::dvec3 direction =
+        planet::directionFromGeographic({glm::radians(note.latitudeDeg), glm::radians(note.longitudeDeg)});
+    return direction * (radiusM + note.heightM * exaggeration);
+}
+
+std::optional<glm::dvec2> pinInPicture(const planet::View& view, const glm::dvec3& placeM, double radiusM) {
+    const glm::dvec3 towards = placeM - view.eyeM;
+    const double ahead = -glm::dot(towards, view.back);
+    if (ahead <= 0) return std::nullopt;
+    // Behind the horizon: the way from the eye to the place goes through the planet, or through the ground below the
+    // place if that lies lower.
+    const double opaqueM = std::min(radiusM, glm::length(placeM)) * (1 - 1e-6);
+    const double length2 = glm::dot(towards, towards);
+    const double nearest = std::clamp(-glm::dot(view.eyeM, towards) / length2, 0.0, 1.0);
+    if (glm::length(view.eyeM + nearest * towards) < opaqueM && glm::length(view.eyeM) > opaqueM)
+        return std::nullopt;
+    const double scale = planet::screenScalePx(view);
+    const glm::dvec2 at(0.5 * view.widthPx + scale * glm::dot(towards, view.right) / ahead,
+                        0.5 * view.heightPx - scale * glm::dot(towards, view.up) / ahead);
+    if (at.x < 0 || at.y < 0 || at.x > view.widthPx || at.y > view.heightPx) return std::nullopt;
+    return at;
+}
+
+std::vector<NoteSubject> noteSubjects(const EditorView& view, double exaggeration) {
+    if (!view.planet) return {};
+    const glm::dvec3 middle = groundInMiddle(view.camera.renderView, view.planet->tree());
+    std::vector<NoteSubject> subjects = {{"this view", noteAt(view, middle, exaggeration)}};
+    subjects.push_back(chunkSubject(view, exaggeration));
+    subjects.push_back(errorSubject(view, exaggeration));
+    subjects.push_back(crackSubject(view, exaggeration));
+    subjects.push_back(popSubject(view, exaggeration));
+    subjects.push_back(precisionSubject(view, exaggeration));
+    return subjects;
+}
+
+}  // namespace worldy::ui

@@ -1,0 +1,34 @@
+// What a new note can be about, and where the pins of notes lie in a picture. Pure functions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ui/model/editor_view.h"
+#include "ui/model/layout.h"
+
+namespace worldy::ui {
+
+struct NoteSubject {
+    std::string label;  // "this view"
+    std::optional<Note>
+        note;              // its place, view and figures, without a text; none: there is nothing to note yet
+    std::string whyNot{};  // why there is none, a sentence
+};
+// Returns the subjects: this view, the selected chunk, and the measurements. Empty without a planet.
+// exaggeration: of the drawn heights, > 0.
+std::vector<NoteSubject> noteSubjects(const EditorView& view, double exaggeration);
+
+// Returns the place in the middle of a view on the ground, or the place below the camera if the view shows sky there.
+// Metres from the planet's centre.
+glm::dvec3 groundInMiddle(const planet::View& view, const planet::ChunkTree& tree);
+
+// Returns a note's place, metres from the planet's centre.
+glm::dvec3 placeOfNote(const Note& note, double radiusM, double exaggeration);
+
+// Returns where a place is in the picture, in its pixels from the top left; none if it is behind the camera, outside the
+// picture or behind the horizon of a sphere below the place.
+std::optional<glm::dvec2> pinInPicture(const planet::View& view, const glm::dvec3& placeM, double radiusM);
+
+}  // namespace worldy::ui
