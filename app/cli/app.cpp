@@ -95,7 +95,8 @@ Result<CheckedData> checked(const DataSet& set) {
 
 // Returns the last session if the window is to go on with it, else an empty one.
 LastSession sessionToResume(const AppOptions& options, const Settings& settings, const Log& log) {
-    if (!options.file.empty() || !settings.dataSet.empty() || !settings.workspace.resume) return {};
+    if (!options.file.empty() || !settings.dataSet.empty() || !settings.workspace.preferences.resume)
+        return {};
     Result<LastSession> last = loadLastSession(lastSessionFile());
     if (last) return std::move(*last);
     log->warn("{}; the last session is not opened", last.error().message);
@@ -214,8 +215,8 @@ int runApp(const AppOptions& options) {
     std::error_code status;
     fs::create_directories(configFolder(), status);
     auto window = Window::open({open->settings.windowWidthPx, open->settings.windowHeightPx,
-                                configFolder() / "imgui.ini", open->settings.workspace.theme,
-                                open->settings.workspace.scale});
+                                configFolder() / "imgui.ini", open->settings.workspace.preferences.theme,
+                                open->settings.workspace.preferences.scale});
     if (window) return runWindow(*window, options, *data, *open, last, log);
     if (window.error().problem == WindowProblem::NoOpenGl) {
         return reportError({planet::ErrorKind::BadInput, window.error().message});

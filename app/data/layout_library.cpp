@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "app/base/output_file.h"
@@ -34,8 +33,7 @@ bool areSameLayout(const Workspace& a, const Workspace& b) {
 
 Workspace withLayout(const Workspace& now, const Workspace& layout) {
     Workspace workspace = layout;
-    workspace.theme = now.theme;
-    workspace.scale = now.scale;
+    workspace.preferences = now.preferences;
     return workspace;
 }
 
@@ -56,11 +54,7 @@ void LayoutLibrary::reload() {
 }
 
 Result<const NamedLayout*> LayoutLibrary::existing(std::string_view name) const {
-    const auto found = std::find_if(layouts_.begin(), layouts_.end(),
-                                    [&](const NamedLayout& layout) { return layout.named.name == name; });
-    if (found != layouts_.end()) return &*found;
-    return planet::badInput(fmt::format("unknown layout \"{:.80}\"; expected one in {} or {}", name,
-                                        folders_.own.string(), folders_.shipped.string()));
+    return itemNamed(layouts_, name, folders_, what);
 }
 
 Result<Workspace> LayoutLibrary::load(std::string_view name) const {

@@ -46,6 +46,11 @@ void addFiles(const fs::path& folder, bool shipped, std::vector<NamedFile>& file
 
 }  // namespace
 
+planet::Error unknownName(std::string_view name, const NamedFolders& folders, std::string_view what) {
+    return {planet::ErrorKind::BadInput, fmt::format("unknown {} \"{:.80}\"; expected one in {} or {}", what,
+                                                     name, folders.own.string(), folders.shipped.string())};
+}
+
 Result<void> checkFileName(std::string_view name) {
     if (name.empty()) return planet::badInput("name: empty; expected letters, digits and spaces");
     if (name.size() > maxNameBytes)

@@ -33,6 +33,18 @@ bool areSameName(std::string_view a, std::string_view b);
 // Returns the files of both folders: shipped ones first, then by name. Hidden files are left out.
 std::vector<NamedFile> namedFiles(const NamedFolders& folders);
 
+// Returns the Error of a name that no file has. what: "preset".
+planet::Error unknownName(std::string_view name, const NamedFolders& folders, std::string_view what);
+
+// Returns the item whose member named has the name, or the Error of an unknown one. The items must outlive the result.
+template <class Item>
+planet::Result<const Item*> itemNamed(const std::vector<Item>& items, std::string_view name,
+                                      const NamedFolders& folders, std::string_view what) {
+    for (const Item& item : items)
+        if (item.named.name == name) return &item;
+    return tl::unexpected(unknownName(name, folders, what));
+}
+
 // Returns the file to write for a name, and creates the user's folder. A name that differs only in case keeps
 // the name of the existing file. The Error says why the name cannot be used: it is no file name, or a shipped
 // file has it. what: "preset".

@@ -79,7 +79,7 @@ void Editor::rest(const Window& window, const Session& session) {
     FramePace& pace = frames_.pace;
     pace.noteFrame(frames_.activity.kind, frames_.timeS);
     if (window.waitForInput(0)) pace.noteInput(frames_.timeS);
-    if (!settings_.settings.workspace.idle || !window_.itemMapFile.empty()) return;
+    if (!settings_.settings.workspace.preferences.idle || !window_.itemMapFile.empty()) return;
     const Stopwatch watch;
     const double restS = pace.restS(frames_.timeS);
     constexpr double lookS = 0.25;  // at what no event announces
@@ -96,8 +96,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     notices_.timeS = frames_.timeS += secondsSinceLast;
     // Nothing moved while the window rested, and no frame was drawn.
     const double movedS = std::max(secondsSinceLast - frames_.restedS, 0.0);
-    window.setTheme(workspace.theme, workspace.scale);
-    window.waitForMonitor(workspace.vsync);
+    window.setTheme(workspace.preferences.theme, workspace.preferences.scale);
+    window.waitForMonitor(workspace.preferences.vsync);
     // Frames wait for input during a bake of which at most a coarse first look is shown, because it needs the cores, and
     // during a sweep, whose frame times they would disturb.
     const OpenPlanet* const open = shownPlanet(session);
@@ -120,7 +120,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
     takeUpSession(session, commands);
-    followNotes(files_.notes, shownPlanet(session), frames_.timeS, notices_);
+    advanceNotes(files_.notes, shownPlanet(session), frames_.timeS, notices_);
     advanceTrace(files_.trace, movedS, notices_.log);
     reloadChangedShaders(session, notices_.log);
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
@@ -399,7 +399,7 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                 worldy::execute(files_.trace, c, settings_.settings.workspace, radiusM, notices_, next);
             },
             [&](const ui::NoteCommand& c) {
-                executeNote(files_.notes, c, settings_.settings.workspace, notices_);
+                worldy::execute(files_.notes, c, settings_.settings.workspace, notices_);
             },
         },
         command.feature());

@@ -11,7 +11,6 @@
 #include "app/settings/settings_text.h"
 #include "app/trace/trace_document.h"
 #include "planet/source/terrain.h"
-#include "ui/model/docking.h"
 
 namespace worldy {
 
@@ -115,23 +114,6 @@ bool followOpening(FileController& files, const Session& session, Notices& notic
                            session.problem->message,
                            "The open planet is kept. Fix the file or open another one.", true};
     return false;
-}
-
-void followNotes(NotesController& notes, const OpenPlanet* open, double timeS, Notices& notices) {
-    const NotesNews news = advanceNotes(notes, open ? &open->data : nullptr, timeS);
-    if (!news.confirmed.empty()) confirm(notices, news.confirmed);
-    if (news.problem.empty()) return;
-    tellError(notices, {"The notes cannot be read", news.problem,
-                        fmt::format("The file is left as it is. Until it is mended, notes are kept in {}.",
-                                    notes.book.writesTo.string())});
-}
-
-void executeNote(NotesController& notes, const ui::NoteCommand& command, Workspace& workspace,
-                 Notices& notices) {
-    const planet::Result<std::string> done = execute(notes, command);
-    if (!done) return tellError(notices, {"The note was not saved", done.error().message, ""});
-    if (std::holds_alternative<ui::OpenNote>(command)) return ui::showPanel(PanelId::Notes, workspace);
-    confirm(notices, "Notes saved: " + notes.book.writesTo.filename().string(), *done);
 }
 
 void advanceFiles(FileController& files, const Session& session, Notices& notices) {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "app/editor/camera_controller.h"
+#include "app/editor/notes_controller.h"
 #include "app/editor/notices.h"
 #include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
 #include "app/editor/trace_controller.h"
-#include "app/records/notes_controller.h"
 #include "app/settings/session_file.h"
 #include "ui/model/commands.h"
 #include "ui/shell/open_dialog.h"
@@ -46,10 +46,5 @@ void execute(FileController& files, const ui::FileCommand& command, const FileCo
 bool followOpening(FileController& files, const Session& session, Notices& notices);
 // Does the same and saves the list of recent files.
 void advanceFiles(FileController& files, const Session& session, Notices& notices);
-
-// Follow the shown planet with its notes, and execute a command. Messages say what is wrong with their file.
-void followNotes(NotesController& notes, const OpenPlanet* open, double timeS, Notices& notices);
-void executeNote(NotesController& notes, const ui::NoteCommand& command, Workspace& workspace,
-                 Notices& notices);
 
 }  // namespace worldy

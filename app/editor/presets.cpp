@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "app/base/output_file.h"
@@ -57,11 +56,7 @@ std::span<const ui::PresetView> PresetLibrary::views(const ViewSettings& now) {
 }
 
 Result<const PresetLibrary::Preset*> PresetLibrary::existing(std::string_view name) const {
-    const auto found = std::find_if(presets_.begin(), presets_.end(),
-                                    [&](const Preset& preset) { return preset.named.name == name; });
-    if (found != presets_.end()) return &*found;
-    return planet::badInput(fmt::format("unknown preset \"{:.80}\"; expected one in {} or {}", name,
-                                        folders_.own.string(), folders_.shipped.string()));
+    return itemNamed(presets_, name, folders_, what);
 }
 
 Result<ViewSettings> PresetLibrary::load(std::string_view name, const ViewSettings& now) const {

@@ -11,7 +11,7 @@
 #include "app/base/new_file.h"
 #include "app/base/places.h"
 #include "app/editor/overloaded.h"
-#include "app/records/session_report.h"
+#include "app/report/session_report.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/shot_line.h"

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "app/scene/camera_control.h"
 #include "app/scene/error_measurement.h"
-#include "planet/select/screen_error.h"
 
 namespace worldy {
 
@@ -88,13 +88,7 @@ void advanceRuler(const planet::Planet& planet, double timeS, Ruler& ruler) {
 }
 
 RulerEndInPicture rulerEndIn(const planet::View& view, const glm::dvec3& endM) {
-    const double scalePx = planet::screenScalePx(view);
-    const glm::dvec3 fromEye = endM - view.eyeM;
-    RulerEndInPicture end{{}, glm::length(fromEye) / scalePx};
-    const double aheadM = -glm::dot(view.back, fromEye);
-    if (aheadM > 0)
-        end.atPx = scalePx / aheadM * glm::dvec2(glm::dot(view.right, fromEye), glm::dot(view.up, fromEye));
-    return end;
+    return {pixelOf(view, endM), glm::distance(view.eyeM, endM) / planet::screenScalePx(view)};
 }
 
 planet::Lines rulerLines(const Ruler& ruler, const planet::View& view, double radiusM) {

@@ -51,7 +51,7 @@ void advanceRuler(const planet::Planet& planet, double timeS, Ruler& ruler);
 
 // An end of the ruler in a picture.
 struct RulerEndInPicture {
-    std::optional<glm::dvec2> atPx{};  // right and up from the middle; none behind the camera
+    std::optional<glm::dvec2> atPx{};  // from the top left; none behind the camera
     double pixelM = 0;  // length across the line of sight that covers a pixel in the middle, metres
 };
 RulerEndInPicture rulerEndIn(const planet::View& view, const glm::dvec3& endM);

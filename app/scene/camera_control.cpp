@@ -143,6 +143,15 @@ glm::dvec3 rayThrough(const planet::View& view, const glm::dvec2& pixel) {
     return glm::normalize(x * view.right + y * view.up - view.back);
 }
 
+std::optional<glm::dvec2> pixelOf(const planet::View& view, const glm::dvec3& pointM) {
+    const glm::dvec3 fromEye = pointM - view.eyeM;
+    const double aheadM = -glm::dot(fromEye, view.back);
+    if (aheadM <= 0) return std::nullopt;
+    const double scale = planet::screenScalePx(view) / aheadM;
+    return glm::dvec2(view.widthPx / 2.0 + scale * glm::dot(fromEye, view.right),
+                      view.heightPx / 2.0 - scale * glm::dot(fromEye, view.up));
+}
+
 Camera approach(const Camera& camera, const Ground& ground, const glm::dvec3& ray, double notches) {
     const double heightM = heightAboveGroundM(camera, ground);
     const double share = 1 - std::pow(0.85, notches);

@@ -63,6 +63,10 @@ Camera drag(const Camera& camera, const Ground& ground, const planet::View& view
 // Returns the unit direction through a pixel, which is counted from the top left of the view.
 glm::dvec3 rayThrough(const planet::View& view, const glm::dvec2& pixel);
 
+// Returns the pixel that shows a point, counted from the top left of the view, inside the picture or not; nothing behind the
+// camera.
+std::optional<glm::dvec2> pixelOf(const planet::View& view, const glm::dvec3& pointM);
+
 // Returns the distance along a unit ray to a sphere about the planet's centre, from an eye outside it;
 // nothing if the ray misses the sphere.
 std::optional<double> distanceToSphereM(const glm::dvec3& eyeM, const glm::dvec3& ray, double sphereRadiusM);

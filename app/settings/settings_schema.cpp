@@ -512,21 +512,21 @@ void addWindow(Fields& fields, Settings& s) {
           "Height of the bottom dock, in units that follow the font.",
           Number{&workspace.bottomHeight, {60, 1000, ""}}},
          {"window", "theme", "Theme", "Colours of the user interface.",
-          Choice{asByte(workspace.theme), themeNames}},
+          Choice{asByte(workspace.preferences.theme), themeNames}},
          {"window", "scale", "Scale", "Scale of text and controls, relative to the monitor's scale.",
-          Number{&workspace.scale, {0.5, 3, ""}}},
+          Number{&workspace.preferences.scale, {0.5, 3, ""}}},
          {"window", "idle", "Idle when still",
           "Draws frames only while something changes, which saves power. Turn it off to watch frame times "
           "without a pause.",
-          Flag{&workspace.idle}},
+          Flag{&workspace.preferences.idle}},
          {"window", "vsync", "Wait for the monitor",
           "Draws at most as many frames as the monitor shows. Turn it off to draw as fast as the machine "
           "can.",
-          Flag{&workspace.vsync}},
+          Flag{&workspace.preferences.vsync}},
          {"window", "resume", "Go on with the last session",
           "Without a file on the command line, opens the planet, the camera and the trace of the last "
           "session.",
-          Flag{&workspace.resume}}});
+          Flag{&workspace.preferences.resume}}});
 }
 
 // The panels' keys in the order of PanelId, like panelInfos.

@@ -53,6 +53,16 @@ constexpr PanelOrder firstOrder() {
 enum class Theme : std::uint8_t { Dark, Light };
 enum class MaximisedDock : std::uint8_t { None, Left, Right, Bottom };
 
+struct WindowPreferences {
+    Theme theme = Theme::Dark;
+    double scale = 1;    // relative to the monitor's scale; Ctrl + and Ctrl -
+    bool idle = true;    // draws frames only while something changes
+    bool vsync = true;   // frames wait for the monitor
+    bool resume = true;  // a start without a file goes on with the last session
+
+    bool operator==(const WindowPreferences&) const = default;
+};
+
 // The layout of the window, kept between sessions. Sizes are in units of a 13 px font, so that they fit any
 // monitor.
 struct Workspace {
@@ -65,11 +75,7 @@ struct Workspace {
     std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging};
     // The dock that fills the area between the menu bar and the status bar; ignored if it has no panel.
     MaximisedDock maximised = MaximisedDock::None;
-    Theme theme = Theme::Dark;
-    double scale = 1;    // relative to the monitor's scale; Ctrl + and Ctrl -
-    bool idle = true;    // draws frames only while something changes
-    bool vsync = true;   // frames wait for the monitor
-    bool resume = true;  // a start without a file goes on with the last session
+    WindowPreferences preferences;  // not a part of a layout
 
     bool operator==(const Workspace&) const = default;
 };

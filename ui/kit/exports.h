@@ -54,7 +54,7 @@ void exportPlot(const char* id, const ExportTable& samples, bool byRightClick = 
 
 namespace detail {
 
-// What tables.h tells of the table that is being drawn.
+// Functions with which tables.h describes the table that is being drawn.
 void beginRows();                               // a new table
 void noteOrder(std::vector<std::size_t> rows);  // in which rows are shown, if it is not that of their numbers
 void beginRow(std::size_t row);                 // after ImGui::TableNextRow()

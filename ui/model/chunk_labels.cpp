@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/base/text.h"
+#include "app/scene/camera_control.h"
 
 namespace worldy::ui {
 
@@ -43,42 +44,24 @@ bool isHiddenByCube(const glm::dvec3& eyeM, planet::Face face, double radiusM) {
     return glm::dot(eyeM, planet::faceAxes(face).normal) < radiusM / std::sqrt(3.0);
 }
 
-class Projector {
-public:
-    Projector(const planet::View& view, const glm::vec2& areaPx) : view_(view), areaPx_(areaPx) {
-        const double tanX = std::tan(view.horizontalFovRad / 2);
-        perX_ = 1 / tanX;
-        perY_ = perX_ * view.widthPx / view.heightPx;
-    }
-
-    std::optional<glm::vec2> onScreen(const glm::dvec3& pointM) const {
-        const glm::dvec3 offset = pointM - view_.eyeM;
-        const double ahead = -glm::dot(offset, view_.back);
-        if (ahead <= 0) return std::nullopt;
-        const double x = perX_ * glm::dot(offset, view_.right) / ahead;
-        const double y = perY_ * glm::dot(offset, view_.up) / ahead;
-        if (std::abs(x) > 1 || std::abs(y) > 1) return std::nullopt;
-        return glm::vec2(static_cast<float>((x + 1) / 2) * areaPx_.x,
-                         static_cast<float>((1 - y) / 2) * areaPx_.y);
-    }
-
-private:
-    const planet::View& view_;
-    glm::vec2 areaPx_;
-    double perX_ = 1;
-    double perY_ = 1;
-};
+// Returns where a point is in the area that shows the picture; nothing outside of it.
+std::optional<glm::vec2> onScreen(const planet::View& view, const glm::vec2& areaPx,
+                                  const glm::dvec3& pointM) {
+    const std::optional<glm::dvec2> pixel = pixelOf(view, pointM);
+    if (!pixel || pixel->x < 0 || pixel->y < 0 || pixel->x > view.widthPx || pixel->y > view.heightPx)
+        return std::nullopt;
+    return glm::vec2(*pixel / glm::dvec2(view.widthPx, view.heightPx)) * areaPx;
+}
 
 std::vector<Candidate> visibleMiddles(const planet::View& view, const planet::ChunkTree& tree,
                                       std::span<const planet::DrawItem> items,
                                       const ChunkLabelSettings& settings) {
-    const Projector projector(view, settings.areaPx);
     std::vector<Candidate> visible;
     for (const planet::DrawItem& item : items) {
         // The selection may be older than the tree: paging may have evicted nodes since.
         if (item.node >= tree.nodes.size() || !tree.nodes[item.node].heights) continue;
         const glm::dvec3 middle = middleM(tree, tree.nodes[item.node], settings.cube);
-        const std::optional<glm::vec2> at = projector.onScreen(middle);
+        const std::optional<glm::vec2> at = onScreen(view, settings.areaPx, middle);
         if (!at) continue;
         const bool hidden = settings.cube ? isHiddenByCube(view.eyeM, item.id.face, tree.shape.radiusM)
                                           : isHidden(view.eyeM, middle, tree.occluderRadiusM);

@@ -67,7 +67,7 @@ struct TabRow {
     std::vector<Rect> tabs;  // of the panels
 };
 
-// Where a dragged panel goes when it is dropped.
+// The place that a dragged panel takes when it is dropped.
 struct DropTarget {
     std::optional<Dock> dock;    // none: it floats
     std::size_t position = 0;    // among the tabs of the dock without the panel

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/base/text.h"
+#include "app/scene/camera_control.h"
 #include "planet/sphere/cube_sphere.h"
 
 namespace worldy::ui {
@@ -133,20 +134,16 @@ glm::dvec3 placeOfNote(const Note& note, double radiusM, double exaggeration) {
 }
 
 std::optional<glm::dvec2> pinInPicture(const planet::View& view, const glm::dvec3& placeM, double radiusM) {
-    const glm::dvec3 towards = placeM - view.eyeM;
-    const double ahead = -glm::dot(towards, view.back);
-    if (ahead <= 0) return std::nullopt;
     // Behind the horizon: the way from the eye to the place goes through the planet, or through the ground below the
     // place if that lies lower.
+    const glm::dvec3 towards = placeM - view.eyeM;
     const double opaqueM = std::min(radiusM, glm::length(placeM)) * (1 - 1e-6);
     const double length2 = glm::dot(towards, towards);
     const double nearest = std::clamp(-glm::dot(view.eyeM, towards) / length2, 0.0, 1.0);
     if (glm::length(view.eyeM + nearest * towards) < opaqueM && glm::length(view.eyeM) > opaqueM)
         return std::nullopt;
-    const double scale = planet::screenScalePx(view);
-    const glm::dvec2 at(0.5 * view.widthPx + scale * glm::dot(towards, view.right) / ahead,
-                        0.5 * view.heightPx - scale * glm::dot(towards, view.up) / ahead);
-    if (at.x < 0 || at.y < 0 || at.x > view.widthPx || at.y > view.heightPx) return std::nullopt;
+    const std::optional<glm::dvec2> at = pixelOf(view, placeM);
+    if (!at || at->x < 0 || at->y < 0 || at->x > view.widthPx || at->y > view.heightPx) return std::nullopt;
     return at;
 }
 

@@ -1,4 +1,4 @@
-// What a new note can be about, and where the pins of notes lie in a picture. Pure functions.
+// Finds the subjects that a new note can have, and the places of the pins in a picture. Pure functions.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,4 @@
-// What the palette (Ctrl+K) lists: entries ranked by how well they match what is typed. Pure functions, any
-// thread.
+// The rows of the palette (Ctrl+K): entries ranked by how well they match the typed text. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>

@@ -75,8 +75,8 @@ void addFile(List& list) {
          .help = "A start without a file opens the planet, the camera and the trace of the last session.",
          .menu = Menu::File,
          .setting = "window.resume",
-         .act = [](const Context& c) { c.workspace.resume = !c.workspace.resume; },
-         .isOn = [](const Context& c) { return c.workspace.resume; }});
+         .act = [](const Context& c) { c.workspace.preferences.resume = !c.workspace.preferences.resume; },
+         .isOn = [](const Context& c) { return c.workspace.preferences.resume; }});
     list.push_back({.id = "screenshot",
                     .name = "Screenshot",
                     .help = "Saves a picture of the planet with its settings.",
@@ -389,30 +389,32 @@ void addTheme(List& list) {
                         .menu = Menu::View,
                         .group = 2,
                         .submenu = "Theme",
-                        .act = [=](const Context& c) { c.workspace.theme = theme; },
-                        .isOn = [=](const Context& c) { return c.workspace.theme == theme; }});
+                        .act = [=](const Context& c) { c.workspace.preferences.theme = theme; },
+                        .isOn = [=](const Context& c) { return c.workspace.preferences.theme == theme; }});
     };
     add("dark_theme", "Dark theme", Theme::Dark);
     add("light_theme", "Light theme", Theme::Light);
 }
 
 void addFramePace(List& list) {
-    list.push_back({.id = "idle",
-                    .name = "Idle when still",
-                    .help = "Draws frames only while something changes, which saves power.",
-                    .menu = Menu::View,
-                    .group = 4,
-                    .setting = "window.idle",
-                    .act = [](const Context& c) { c.workspace.idle = !c.workspace.idle; },
-                    .isOn = [](const Context& c) { return c.workspace.idle; }});
-    list.push_back({.id = "vsync",
-                    .name = "Wait for the monitor",
-                    .help = "Draws at most as many frames as the monitor shows.",
-                    .menu = Menu::View,
-                    .group = 4,
-                    .setting = "window.vsync",
-                    .act = [](const Context& c) { c.workspace.vsync = !c.workspace.vsync; },
-                    .isOn = [](const Context& c) { return c.workspace.vsync; }});
+    list.push_back(
+        {.id = "idle",
+         .name = "Idle when still",
+         .help = "Draws frames only while something changes, which saves power.",
+         .menu = Menu::View,
+         .group = 4,
+         .setting = "window.idle",
+         .act = [](const Context& c) { c.workspace.preferences.idle = !c.workspace.preferences.idle; },
+         .isOn = [](const Context& c) { return c.workspace.preferences.idle; }});
+    list.push_back(
+        {.id = "vsync",
+         .name = "Wait for the monitor",
+         .help = "Draws at most as many frames as the monitor shows.",
+         .menu = Menu::View,
+         .group = 4,
+         .setting = "window.vsync",
+         .act = [](const Context& c) { c.workspace.preferences.vsync = !c.workspace.preferences.vsync; },
+         .isOn = [](const Context& c) { return c.workspace.preferences.vsync; }});
 }
 
 void addTextAndLayout(List& list) {
@@ -440,10 +442,10 @@ void addTextAndLayout(List& list) {
                     .help = "Gives text and controls the size that the monitor asks for.",
                     .menu = Menu::View,
                     .group = 2,
-                    .act = [](const Context& c) { c.workspace.scale = 1; },
+                    .act = [](const Context& c) { c.workspace.preferences.scale = 1; },
                     .whyNot =
                         [](const Context& c) {
-                            return unless(c.workspace.scale != 1,
+                            return unless(c.workspace.preferences.scale != 1,
                                           "The text already matches the monitor scale.");
                         }});
     list.push_back({.id = "all_panels",

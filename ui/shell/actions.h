@@ -23,7 +23,7 @@ namespace worldy::ui {
 // The keys of each action, in the order of actions().
 using ActionKeys = std::vector<KeyChords>;
 
-// What actions read and change. Everything else is done by commands.
+// The state that actions read and change directly. Everything else is done by commands.
 struct ActionContext {
     const EditorView& view;
     ViewSettings& settings;

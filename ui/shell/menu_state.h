@@ -1,4 +1,4 @@
-// What menus, keys and the palette have asked of the window, kept between frames. Plain state.
+// The state of menus, keys and the palette between frames, and their requests to the window. Plain data.
 #pragma once
 
 #include <array>

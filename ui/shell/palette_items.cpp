@@ -51,7 +51,7 @@ void addPanel(PaletteItems& items, const Action& action, std::string key) {
 void addActions(PaletteItems& items, const ActionContext& context) {
     for (std::size_t i = 0; i < actions().size(); ++i) {
         const Action& action = actions()[i];
-        // Those would close the palette that they are chosen in.
+        // These two actions would close the palette while the user chooses in it.
         if (action.id == "palette" || action.id == "close") continue;
         if (action.choices) {
             addChoices(items, action, context);

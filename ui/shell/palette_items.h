@@ -1,5 +1,4 @@
-// What the palette lists: actions and what they can be applied to, panels, settings, and the chunk or place
-// that is typed.
+// The entries of the palette: actions and their choices, panels, settings, and the chunk or place that is typed.
 #pragma once
 
 #include <functional>
@@ -12,7 +11,7 @@
 
 namespace worldy::ui {
 
-// What choosing an entry does.
+// The effects of choosing an entry.
 struct PaletteChoice {
     std::function<void(const ActionContext&)>
         choose{};  // empty for a setting, which is edited in the palette

@@ -16,12 +16,13 @@ void setShownTextScale(double scale) {
 }
 
 bool isTextLimited(const Workspace& workspace) {
-    return shownScale < 0.999 * workspace.scale;
+    return shownScale < 0.999 * workspace.preferences.scale;
 }
 
 void zoomText(double factor, Workspace& workspace) {
     if (factor > 1 && isTextLimited(workspace)) return;
-    workspace.scale = std::clamp(std::min(workspace.scale, shownScale) * factor, 0.5, 3.0);
+    workspace.preferences.scale =
+        std::clamp(std::min(workspace.preferences.scale, shownScale) * factor, 0.5, 3.0);
 }
 
 }  // namespace worldy::ui

@@ -220,11 +220,11 @@ void drawRulerNames(ImDrawList& drawList, const EditorView& view, const Rect& vi
     for (std::size_t i = 0; i < ends.size(); ++i) {
         if (!ends[i].atPx) continue;
         constexpr double postPx = 24;
-        const glm::vec2 at(*ends[i].atPx + glm::dvec2(0, postPx));
+        const glm::vec2 at(*ends[i].atPx - glm::dvec2(0, postPx));
         const char* name = i == 0 ? "A" : "B";
         badge(drawList,
-              {viewport.x + viewport.width / 2 + scale * at.x - ImGui::CalcTextSize(name).x,
-               viewport.y + viewport.height / 2 - scale * at.y - badgeStepPx()},
+              {viewport.x + scale * at.x - ImGui::CalcTextSize(name).x,
+               viewport.y + scale * at.y - badgeStepPx()},
               name, palette().warning);
     }
 }

@@ -49,11 +49,10 @@ struct Layouts : testing::Test {
     }
 };
 
-TEST_F(Layouts, whatIsSavedIsListedAndLoadedAgainWithoutThemeAndScale) {
+TEST_F(Layouts, whatIsSavedIsListedAndLoadedAgainWithoutPreferences) {
     LayoutLibrary library(folders);
     Workspace saved = someLayout();
-    saved.theme = Theme::Light;
-    saved.scale = 2;
+    saved.preferences = {Theme::Light, 2, false, false, false};
     const planet::Result<void> done = library.save("two monitors ä", saved, false);
     ASSERT_TRUE(done) << done.error().message;
     EXPECT_THAT(names(library), ElementsAre("Base", "two monitors ä"));
@@ -124,8 +123,7 @@ TEST(Layout, isTheSameWhateverIsInFront) {
     Workspace other = someLayout();
     other.inFront[1] = PanelId::Camera;
     other.maximised = MaximisedDock::None;
-    other.theme = Theme::Light;
-    other.scale = 2;
+    other.preferences = {Theme::Light, 2, false, false, false};
     EXPECT_TRUE(areSameLayout(other, someLayout()));
     other.bottomHeight += 1;
     EXPECT_FALSE(areSameLayout(other, someLayout()));

@@ -167,8 +167,8 @@ TEST(RulerEndInPicture, isWhereThePictureShowsIt) {
     view.horizontalFovRad = 2 * std::atan(0.5);  // 1000 px across 1000 m at 1000 m
     const RulerEndInPicture ahead = rulerEndIn(view, {10, -20, -1000});
     ASSERT_TRUE(ahead.atPx);
-    EXPECT_NEAR(ahead.atPx->x, 10, 1e-9);
-    EXPECT_NEAR(ahead.atPx->y, -20, 1e-9);
+    EXPECT_NEAR(ahead.atPx->x, 510, 1e-9);
+    EXPECT_NEAR(ahead.atPx->y, 270, 1e-9);
     EXPECT_NEAR(ahead.pixelM, 1, 1e-3);
     EXPECT_FALSE(rulerEndIn(view, {0, 0, 5}).atPx);
 }

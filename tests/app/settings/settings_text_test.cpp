@@ -272,7 +272,7 @@ TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     there.view.lod.tauPx = 3.5;
     there.view.overlay.colourBy = ColourBy::LoadOrder;
     there.camera.latitudeDeg = 80;
-    there.workspace.scale = 2;
+    there.workspace.preferences.scale = 2;
     const std::vector<SettingDifference> few = differences(here, there);
     ASSERT_EQ(few.size(), 2u);
     EXPECT_EQ(few[0].setting, "lod.tau_px");

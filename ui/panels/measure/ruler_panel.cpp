@@ -52,11 +52,6 @@ void controls(const RulerView& ruler, Commands& commands) {
     sameLineForButton("Clear");
     if (button("Clear", "Removes both ends.")) commands.push_back(ClearRuler{});
     endGrey();
-    beginGrey(!ruler.measured, "Nothing is measured yet.");
-    sameLineForButton("Copy");
-    if (button("Copy", "Copies the profile as a table of tab-separated values."))
-        commands.push_back(CopyText{profileTable(ruler.measured->profile)});
-    endGrey();
 }
 
 void endRows(const RulerView& ruler) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/base/text.h"
+#include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
@@ -98,6 +99,19 @@ void tellPlace(const ProfileArea& area, const planet::GroundProfile& profile) {
                   .c_str());
 }
 
+ExportTable profileTable(const planet::GroundProfile& profile) {
+    using Point = planet::ProfilePoint;
+    const auto placeOf = [](const Point& point) { return planet::geographicFromDirection(point.direction); };
+    return exportTable<Point>(
+        "height profile", profile.points.size(),
+        [&](std::size_t row) -> const Point& { return profile.points[row]; },
+        {{"along_m", [](const Point& point) { return point.alongM; }},
+         {"latitude_deg", [=](const Point& point) { return glm::degrees(placeOf(point).latitudeRad); }},
+         {"longitude_deg", [=](const Point& point) { return glm::degrees(placeOf(point).longitudeRad); }},
+         {"finest_m", [](const Point& point) { return point.finestM; }},
+         {"drawn_m", [](const Point& point) { return point.drawnM; }}});
+}
+
 }  // namespace
 
 std::string heightText(double metres) {
@@ -129,17 +143,7 @@ void rulerProfile(const planet::GroundProfile& profile, const planet::ProfileSum
     drawAxisTexts(area, summary);
     ImGui::PopClipRect();
     if (ImGui::IsItemHovered()) tellPlace(area, profile);
-}
-
-std::string profileTable(const planet::GroundProfile& profile) {
-    std::string table = "along_m\tlatitude_deg\tlongitude_deg\tfinest_m\tdrawn_m\n";
-    for (const planet::ProfilePoint& point : profile.points) {
-        const planet::Geographic place = planet::geographicFromDirection(point.direction);
-        table += fmt::format("{:.3f}\t{:.8f}\t{:.8f}\t{:.4f}\t{}\n", point.alongM,
-                             glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad), point.finestM,
-                             point.drawnM ? fmt::format("{:.4f}", *point.drawnM) : "");
-    }
-    return table;
+    exportPlot("profile", profileTable(profile));
 }
 
 }  // namespace worldy::ui

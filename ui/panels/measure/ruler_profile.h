@@ -7,12 +7,11 @@
 
 namespace worldy::ui {
 
-// Draws the profile in the available width. lines: its height, in lines of text. Hovering tells the heights at a place.
+// Draws the profile in the available width. lines: its height, in lines of text. Hovering tells the heights at a place; the
+// menu copies and saves them.
 void rulerProfile(const planet::GroundProfile& profile, const planet::ProfileSummary& summary, float lines);
 
-// Returns a height with all metres, and with centimetres below 100 m: "8,849 m" would be "8849 m", "12.34 m".
+// Returns a height with all metres, and with centimetres below 100 m: "8849 m", "12.34 m".
 std::string heightText(double metres);
-// Returns the profile as lines of tab-separated values with a heading.
-std::string profileTable(const planet::GroundProfile& profile);
 
 }  // namespace worldy::ui

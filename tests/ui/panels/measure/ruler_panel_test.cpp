@@ -9,6 +9,7 @@
 
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
+#include "ui/kit/exports.h"
 #include "ui/panels/measure/ruler_profile.h"
 
 namespace worldy::ui {
@@ -69,8 +70,8 @@ TEST_F(RulerPanel, asksForClicks) {
     EXPECT_TRUE(commands[0].as<TakeRulerClicks>()->on);
 }
 
-TEST_F(RulerPanel, withoutEndsThereIsNothingToSwapClearOrCopy) {
-    for (const char* label : {"Swap", "Clear", "Copy"}) EXPECT_TRUE(clicked(label).empty()) << label;
+TEST_F(RulerPanel, withoutEndsThereIsNothingToSwapOrClear) {
+    for (const char* label : {"Swap", "Clear"}) EXPECT_TRUE(clicked(label).empty()) << label;
     EXPECT_FALSE(window_.isShown("Profile"));
 }
 
@@ -86,14 +87,29 @@ TEST_F(RulerPanel, swapsAndClearsItsEnds) {
 
 TEST_F(RulerPanel, copiesEachPlaceOfTheProfile) {
     showMeasured();
-    const Commands commands = clicked("Copy");
-    ASSERT_EQ(commands.size(), 1u);
-    ASSERT_TRUE(commands[0].as<CopyText>());
-    const std::string& text = commands[0].as<CopyText>()->text;
-    EXPECT_EQ(std::ranges::count(text, '\n'), 4) << text;
-    EXPECT_NE(text.find("\n1000.000\t0.00000000\t0.05729578\t100.0000\t93.0000\n"), std::string::npos)
+    ExportState state;
+    Commands all;
+    const auto draw = [&] {
+        Commands commands;
+        window_.frame([&] {
+            beginExports(state, commands);
+            rulerPanel(view_, commands);
+            endExports();
+        });
+        addAsked(std::move(commands), all);
+    };
+    draw();
+    draw();
+    window_.click("height profile menu", 0.5f, draw);
+    draw();
+    window_.click("Copy samples", 0.5f, draw);
+    ASSERT_EQ(all.size(), 1u);
+    ASSERT_TRUE(all[0].as<CopyText>());
+    const std::string& text = all[0].as<CopyText>()->text;
+    EXPECT_TRUE(text.starts_with("along_m\tlatitude_deg\tlongitude_deg\tfinest_m\tdrawn_m\n0\t0\t0\t0\t2\n"))
         << text;
-    EXPECT_TRUE(text.ends_with("\t50.0000\t\n")) << text;
+    EXPECT_EQ(std::ranges::count(text, '\n'), 4) << text;
+    EXPECT_TRUE(text.ends_with("\t50\t\n")) << text;
 }
 
 TEST_F(RulerPanel, drawsAGroundThatIsFlatOrIsNotDrawn) {

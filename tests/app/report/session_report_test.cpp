@@ -1,4 +1,4 @@
-#include "app/records/session_report.h"
+#include "app/report/session_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,14 @@
-#include "app/records/notes_controller.h"
+#include "app/editor/notes_controller.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
+#include <variant>
 
 #include "app/base/new_file.h"
+#include "ui/model/docking.h"
 
 namespace worldy {
 
@@ -28,6 +31,16 @@ Result<std::string> add(NotesController& notes, Note note) {
     return fmt::format("Note saved in {}", whereKept(notes));
 }
 
+void openNotes(NotesController& notes, const std::filesystem::path& file, Notices& notices) {
+    notes.book = openNotebook(file);
+    notes.open.reset();
+    if (notes.book.problem.empty()) return;
+    tellError(notices, {"The notes cannot be read", notes.book.problem,
+                        fmt::format("The file is left as it is. Until it is mended, notes are kept in {}.",
+                                    whereKept(notes))});
+}
+
+// Returns what is done, for the log: where the note was saved.
 struct Executor {
     NotesController& notes;
 
@@ -52,29 +65,26 @@ struct Executor {
 
 }  // namespace
 
-NotesNews advanceNotes(NotesController& notes, const DataSet* shown, double timeS) {
-    NotesNews news;
-    const std::filesystem::path chunkFile = shown ? shown->chunkFile : std::filesystem::path();
+void advanceNotes(NotesController& notes, const OpenPlanet* shown, double timeS, Notices& notices) {
+    const std::filesystem::path chunkFile = shown ? shown->data.chunkFile : std::filesystem::path();
     if (chunkFile != notes.chunkFile) {
         notes.chunkFile = chunkFile;
-        const std::filesystem::path file =
-            shown ? notesFileOf(shown->source, chunkFile) : std::filesystem::path();
         // Another bake of the same source has the same notes.
-        if (file != notes.book.file) {
-            notes.book = openNotebook(file);
-            notes.open.reset();
-            news.problem = notes.book.problem;
-        }
+        const std::filesystem::path file =
+            shown ? notesFileOf(shown->data.source, chunkFile) : std::filesystem::path();
+        if (file != notes.book.file) openNotes(notes, file, notices);
     }
-    if (notes.book.problem.empty() || timeS < notes.lookedAtS + lookedEveryS) return news;
+    if (notes.book.problem.empty() || timeS < notes.lookedAtS + lookedEveryS) return;
     notes.lookedAtS = timeS;
     if (mendNotebook(notes.book))
-        news.confirmed = fmt::format("Notes: {} can be read again", notes.book.file.string());
-    return news;
+        confirm(notices, fmt::format("Notes: {} can be read again", notes.book.file.string()));
 }
 
-Result<std::string> execute(NotesController& notes, const ui::NoteCommand& command) {
-    return std::visit(Executor{notes}, command);
+void execute(NotesController& notes, const ui::NoteCommand& command, Workspace& workspace, Notices& notices) {
+    const Result<std::string> done = std::visit(Executor{notes}, command);
+    if (!done) return tellError(notices, {"The note was not saved", done.error().message, ""});
+    if (std::holds_alternative<ui::OpenNote>(command)) return ui::showPanel(PanelId::Notes, workspace);
+    confirm(notices, "Notes saved: " + notes.book.writesTo.filename().string(), *done);
 }
 
 ui::NotesView notesViewOf(const NotesController& notes) {

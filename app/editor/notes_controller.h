@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
-#include <string>
 
-#include "app/data/data_set.h"
+#include "app/editor/notices.h"
+#include "app/editor/session.h"
 #include "app/notes/notebook.h"
+#include "app/settings/workspace.h"
 #include "ui/model/commands.h"
 #include "ui/model/notes_view.h"
 
@@ -20,17 +22,12 @@ struct NotesController {
     double lookedAtS = 0;      // when a file that could not be read was looked at again
 };
 
-// Messages for the user.
-struct NotesNews {
-    std::string problem{};    // why the file of the notes cannot be read, for a message
-    std::string confirmed{};  // what is done
-};
 // Call every frame. Opens the notes of another planet when it is shown; shown: null if no planet is. A file that could not
-// be read is tried again twice a second.
-NotesNews advanceNotes(NotesController& notes, const DataSet* shown, double timeS);
+// be read is tried again twice a second. Messages say what is wrong with it.
+void advanceNotes(NotesController& notes, const OpenPlanet* shown, double timeS, Notices& notices);
 
-// Returns what is done, for the log: where the note was saved. The Error says why nothing has changed.
-planet::Result<std::string> execute(NotesController& notes, const ui::NoteCommand& command);
+// workspace: the panel may be brought to the front.
+void execute(NotesController& notes, const ui::NoteCommand& command, Workspace& workspace, Notices& notices);
 
 ui::NotesView notesViewOf(const NotesController& notes);
 
