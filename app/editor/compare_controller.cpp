@@ -10,6 +10,7 @@
 #include "app/scene/overlay_colours.h"
 #include "app/scene/overlay_lines.h"
 #include "app/settings/settings_text.h"
+#include "planet/base/try.h"
 #include "planet/measure/true_error.h"
 
 namespace worldy {
@@ -182,6 +183,25 @@ void findDifferences(CompareController& controller, const ViewSettings& settings
     controller.differentOf = std::move(of);
 }
 
+// Starts comparing A with B, unless B could not be opened.
+Result<void> begin(CompareController& controller, const Scene& a, const ViewSettings& settings,
+                   Result<ComparedOther> b) {
+    if (b) {
+        const Result<void> same = checkSameRadius(radiusOf(a), radiusOf(b->planet.scene));
+        if (!same) b = tl::unexpected(same.error());
+    }
+    if (!b) {
+        controller.problem = b.error().message;
+        return tl::unexpected(b.error());
+    }
+    b->settings = withSharedOf(std::move(b->settings), settings);
+    controller.problem.clear();
+    controller.ending = false;
+    controller.other.emplace(std::move(*b));
+    beginMeters(controller, a);
+    return {};
+}
+
 std::string sidesText(const CompareController& controller) {
     std::string a, b;
     for (const SettingDifference& one : controller.different) {
@@ -198,26 +218,29 @@ Result<void> startCompare(CompareController& controller, const Session& session,
                           const ViewSettings& settings, const ui::StartCompare& wanted) {
     const OpenPlanet* a = shownPlanet(session);
     if (!a) return {};
-    const auto opened = [&]() -> Result<ComparedOther> {
-        Result<ViewSettings> settingsOfB = settingsFor(wanted, presets, settings);
-        if (!settingsOfB) return tl::unexpected(settingsOfB.error());
-        Result<OpenPlanet> planet = openFor(wanted, session, *settingsOfB);
-        if (!planet) return tl::unexpected(planet.error());
-        if (const Result<void> good = checkSameRadius(radiusOf(a->scene), radiusOf(planet->scene)); !good)
-            return tl::unexpected(good.error());
-        return ComparedOther{
-            std::move(*planet), withSharedOf(std::move(*settingsOfB), settings), originOf(wanted), {}};
-    };
-    Result<ComparedOther> other = opened();
-    if (!other) {
-        controller.problem = other.error().message;
-        return tl::unexpected(other.error());
-    }
-    controller.problem.clear();
-    controller.ending = false;
-    controller.other.emplace(std::move(*other));
-    beginMeters(controller, a->scene);
-    return {};
+    return begin(controller, a->scene, settings, [&]() -> Result<ComparedOther> {
+        TRY_ASSIGN(ViewSettings settingsOfB, settingsFor(wanted, presets, settings));
+        TRY_ASSIGN(OpenPlanet planet, openFor(wanted, session, settingsOfB));
+        return ComparedOther{std::move(planet), std::move(settingsOfB), originOf(wanted), {}};
+    }());
+}
+
+LastComparison lastComparisonOf(const ComparedOther& other, const OpenPlanet& a) {
+    LastComparison last{.origin = other.origin, .settings = withSharedOf(other.settings, {})};
+    const std::filesystem::path& file = other.planet.data.chunkFile;
+    if (file != a.data.chunkFile) last.file = std::filesystem::absolute(file);
+    return last;
+}
+
+Result<void> resumeCompare(CompareController& controller, const Session& session, const LastComparison& last,
+                           const ViewSettings& settings) {
+    const OpenPlanet* a = shownPlanet(session);
+    if (!a) return {};
+    return begin(controller, a->scene, settings, [&]() -> Result<ComparedOther> {
+        TRY_ASSIGN(OpenPlanet planet, last.file.empty() ? openBeside(session, a->data, last.settings)
+                                                        : openBeside(session, last.file, last.settings));
+        return ComparedOther{std::move(planet), last.settings, last.origin, {}};
+    }());
 }
 
 void stopCompare(CompareController& controller) {

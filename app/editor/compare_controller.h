@@ -15,6 +15,7 @@
 #include "app/editor/viewport.h"
 #include "app/measure/comparison_job.h"
 #include "app/measure/error_job.h"
+#include "app/settings/session_file.h"
 #include "planet/gl/measure/picture_comparer.h"
 #include "planet/measure/pop_meter.h"
 #include "ui/model/commands.h"
@@ -83,6 +84,11 @@ struct CompareController {
 planet::Result<void> startCompare(CompareController& controller, const Session& session,
                                   const PresetLibrary& presets, const ViewSettings& settings,
                                   const ui::StartCompare& wanted);
+// Returns what the next start can compare A with.
+LastComparison lastComparisonOf(const ComparedOther& other, const OpenPlanet& a);
+// Compares again as in the last session; fails like startCompare().
+planet::Result<void> resumeCompare(CompareController& controller, const Session& session,
+                                   const LastComparison& last, const ViewSettings& settings);
 // Frees B's planet, its memory and its files. The measurement of a flight continues.
 void stopCompare(CompareController& controller);
 // Call when A's planet was reset or a replay jumped; the change of chunks is then no level change.

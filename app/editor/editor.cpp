@@ -73,17 +73,19 @@ void Editor::endFlights(Session& session) {
     stopRecording(recording_, scene ? scene->planet.get() : nullptr, notices_.log);
 }
 
-// Scripts that read the item map count frames, so these are drawn all the time.
 void Editor::rest(const Window& window, const Session& session) {
     frames_.restedS = 0;
     FramePace& pace = frames_.pace;
     pace.noteFrame(frames_.activity.kind, frames_.timeS);
     if (window.waitForInput(0)) pace.noteInput(frames_.timeS);
-    if (!settings_.settings.workspace.preferences.idle || !window_.itemMapFile.empty()) return;
+    if (!settings_.settings.workspace.preferences.idle) return;
+    // A script asks for the frames that it waits for, so that the processor is free for it between them.
+    const bool isScripted = !window_.itemMapFile.empty();
+    const auto frameIsAsked = [&] { return isScripted && frames_.frame < askedFrame(window_.itemMapFile); };
     const Stopwatch watch;
-    const double restS = pace.restS(frames_.timeS);
-    constexpr double lookS = 0.25;  // at what no event announces
-    while (watch.elapsedS() < restS && !window.closing() && !shadersHaveChanged(session)) {
+    const double restS = isScripted ? scriptedRestS(frames_.activity.kind) : pace.restS(frames_.timeS);
+    const double lookS = isScripted ? 0.005 : 0.25;  // at what no event announces
+    while (watch.elapsedS() < restS && !window.closing() && !shadersHaveChanged(session) && !frameIsAsked()) {
         if (!window.waitForInput(std::min(restS - watch.elapsedS(), lookS))) continue;
         pace.noteInput(frames_.timeS + watch.elapsedS());
         break;
@@ -102,10 +104,10 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     // during a sweep, whose frame times they would disturb.
     const OpenPlanet* const open = shownPlanet(session);
     const bool waitsForBake = !open || (open->isFirstLook && session.bake);
+    followSecondWindow(window, settings_.settings, notices_);
     window.beginFrame(waitsForBake || sweep_.job ? 0.05 : 0);
     const float pixelRatio = window.pixelRatio();
-    const ui::Layout layout = ui::layoutOf(window.width(), window.height(), workspace, ui::menuBarHeight(),
-                                           ui::statusBarHeight(), ui::unitPx());
+    const ui::Layout layout = layoutIn(window, workspace);
     layOut(viewport_, layout.viewport, settings_.settings.view.camera.observer, pixelRatio);
     std::vector<ui::ItemPlace> items;
     ui::collectItems(window_.itemMapFile.empty() ? nullptr : &items);
@@ -174,14 +176,31 @@ LastSession Editor::lastSession(const Session& session) const {
     if (!planet::isTerrainText(last.file)) last.file = std::filesystem::absolute(last.file);
     if (camera_.rig) last.camera = roundedPose(poseOf(camera_.rig->camera, camera_.radiusM));
     if (files_.trace.document && !files_.trace.isLive) last.trace = files_.trace.document->file();
+    if (const OpenPlanet* const open = shownPlanet(session)) {
+        last.ruler = rulerPlaces(instruments_.ruler, open->scene.planet->tree().shape.radiusM);
+        if (compare_.other) last.compare = lastComparisonOf(*compare_.other, *open);
+    }
+    // They are taken up once the whole planet is there.
+    if (!files_.atStart.ruler.empty()) last.ruler = files_.atStart.ruler;
+    if (files_.atStart.compare && !last.compare) last.compare = files_.atStart.compare;
     return last;
 }
 
 void Editor::takeUpSession(const Session& session, ui::Commands& commands) {
     LastSession& last = files_.atStart;
     if (!last.trace.empty()) commands.push_back(ui::OpenTrace{std::exchange(last.trace, {})});
-    if (!last.camera || !camera_.rig || !shownScene(session)) return;
-    commands.push_back(ui::MoveCamera{*std::exchange(last.camera, {})});
+    if (!camera_.rig || !shownScene(session)) return;
+    if (last.camera) commands.push_back(ui::MoveCamera{*std::exchange(last.camera, {})});
+    const OpenPlanet& open = *shownPlanet(session);
+    if (open.isFirstLook) return;
+    if (!last.ruler.empty())
+        setRulerPlaces(instruments_.ruler, std::exchange(last.ruler, {}),
+                       open.scene.planet->tree().shape.radiusM);
+    const std::optional<LastComparison> compare = std::exchange(last.compare, {});
+    if (!compare || compare_.other) return;
+    const planet::Result<void> resumed = resumeCompare(compare_, session, *compare, settings_.settings.view);
+    if (!resumed)
+        notices_.log->warn("{}; the comparison of the last session is not resumed", resumed.error().message);
 }
 
 // Call when another planet is shown: the camera stays if possible, measurements are discarded.

@@ -25,6 +25,7 @@ std::vector<Counter> countersOf(const CounterSources& sources, const FrameStats&
     };
     add("frame", sources.frames.frame);
     add("queued_input", queuedInput);
+    add("moving", sources.frames.activity.kind == Activity::Motion ? 1 : 0);
     const FrameStats* const b = compare.other ? &compare.other->stats : nullptr;
     add("stand_in", stats.render.standIn || (b && b->render.standIn) ? 1 : 0);
     add("drawn", selection.drawn);
@@ -87,6 +88,12 @@ void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPla
     if (std::filesystem::is_regular_file(there))
         std::filesystem::permissions(unfinished, there.permissions(), status);
     std::filesystem::rename(unfinished, target, status);
+}
+
+std::uint64_t askedFrame(const std::filesystem::path& itemMap) {
+    std::ifstream file(itemMap.string() + ".ask");
+    std::uint64_t frame = 0;
+    return file >> frame ? frame : 0;
 }
 
 }  // namespace worldy

@@ -3,8 +3,12 @@
 //
 //     lod/Hysteresis  x  y  width  height    pixels from the window's top left
 //     counter/drawn   123
+//
+// The file is written after each frame. While nothing moves, frames are drawn a few times a second. A script that waits
+// for more writes a frame number to FILE.ask: frames are then drawn at full speed until counter/frame has reached it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -36,13 +40,16 @@ struct CounterSources {
     const CompareController& compare;
 };
 
-// Call after a frame. Returns the number of frames, this frame's counters, the selection, the camera, and the
-// number of key and button events that wait for the next frames.
+// Call after a frame. Returns the number of frames, this frame's counters, the selection, the camera, the number of key
+// and button events that wait for the next frames, and whether something moves by itself.
 std::vector<Counter> countersOf(const CounterSources& sources, const FrameStats& stats,
                                 std::size_t queuedInput);
 
 // Writes to a temporary file and renames it, because scripts may read the file at any time.
 void writeItemMap(const std::filesystem::path& file, std::span<const ui::ItemPlace> items,
                   std::span<const Counter> counters);
+
+// Returns the frame up to which a script asks for frames; 0 if the item map has no ask file or it holds no number.
+std::uint64_t askedFrame(const std::filesystem::path& itemMap);
 
 }  // namespace worldy

@@ -15,6 +15,10 @@
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/shot_line.h"
+#include "ui/kit/theme.h"
+#include "ui/model/docking.h"
+#include "ui/shell/menu_bar.h"
+#include "ui/shell/status_bar.h"
 
 namespace worldy {
 
@@ -90,6 +94,9 @@ void saveExport(const ui::SaveExport& save, Notices& notices) {
 
 Result<std::filesystem::path> savePlot(const ui::SavePlotPicture& plot, const Picture& whole,
                                        float pixelRatio) {
+    if (plot.rect.x >= ui::secondWindowX)
+        return planet::badInput(
+            "The plot is in the second window; move its panel into the main window and save it again");
     const auto pixels = [&](float units) { return static_cast<int>(std::lround(units * pixelRatio)); };
     const Picture picture = partOf(whole, pixels(plot.rect.x), pixels(plot.rect.y), pixels(plot.rect.width),
                                    pixels(plot.rect.height));
@@ -107,6 +114,27 @@ Result<std::filesystem::path> savePlot(const ui::SavePlotPicture& plot, const Pi
 }
 
 }  // namespace
+
+void followSecondWindow(Window& window, Settings& settings, Notices& notices) {
+    Workspace& workspace = settings.workspace;
+    if (window.takeSecondClosed()) ui::leaveSecondWindow(workspace);
+    const bool hasPanels = !ui::panelsIn(Dock::Second, workspace).empty();
+    if (!window.showSecond(hasPanels, settings.secondWindow)) {
+        ui::leaveSecondWindow(workspace);
+        show(notices, "The system cannot open a second window.");
+    }
+    if (const auto place = window.secondPlace()) settings.secondWindow = *place;
+}
+
+ui::Layout layoutIn(const Window& window, const Workspace& workspace) {
+    ui::Layout layout = ui::layoutOf(window.width(), window.height(), workspace, ui::menuBarHeight(),
+                                     ui::statusBarHeight(), ui::unitPx());
+    layout.docks[static_cast<std::size_t>(Dock::Second)] = window.secondRect();
+    const glm::vec2 apart(window.secondFromMain());
+    layout.secondLeft = apart.x;
+    layout.secondTop = apart.y;
+    return layout;
+}
 
 void readKeys(WindowController& controller, Notices& notices) {
     const KeyFile file = readKeyFile(keyFilePath(), ui::keyedCommands());

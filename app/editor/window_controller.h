@@ -17,6 +17,7 @@
 #include "app/window/window.h"
 #include "ui/kit/exports.h"
 #include "ui/model/commands.h"
+#include "ui/model/layout.h"
 #include "ui/shell/actions.h"
 #include "ui/shell/docks_state.h"
 #include "ui/shell/panels.h"
@@ -53,6 +54,12 @@ struct WindowContent {
 };
 void execute(WindowController& controller, const ui::WindowCommand& command, const Window& window,
              const WindowContent& content, Notices& notices);
+
+// Opens the second window while it has panels, and keeps its place in the settings. Closing it moves its panels back. Call
+// before a frame.
+void followSecondWindow(Window& window, Settings& settings, Notices& notices);
+// Returns the layout of both windows.
+ui::Layout layoutIn(const Window& window, const Workspace& workspace);
 
 // Reads the keys from keys.toml. A message tells what is wrong in the file.
 void readKeys(WindowController& controller, Notices& notices);

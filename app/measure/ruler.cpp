@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "app/scene/camera_control.h"
 #include "app/scene/error_measurement.h"
+#include "app/settings/camera_text.h"
+#include "planet/sphere/cube_sphere.h"
 
 namespace worldy {
 
@@ -51,6 +54,26 @@ bool isOf(const MeasuredGround& last, const Ruler& ruler, const planet::Planet& 
 void placeRulerEnd(Ruler& ruler, const glm::dvec3& positionM) {
     if (ruler.ends.size() >= 2) clearRuler(ruler);
     ruler.ends.push_back(positionM);
+}
+
+std::vector<planet::CameraPose> rulerPlaces(const Ruler& ruler, double radiusM) {
+    std::vector<planet::CameraPose> places;
+    for (const glm::dvec3& endM : ruler.ends) {
+        const planet::Geographic place = planet::geographicFromDirection(glm::normalize(endM));
+        places.push_back(roundedPose({.latitudeDeg = glm::degrees(place.latitudeRad),
+                                      .longitudeDeg = glm::degrees(place.longitudeRad),
+                                      .altitudeM = glm::length(endM) - radiusM}));
+    }
+    return places;
+}
+
+void setRulerPlaces(Ruler& ruler, std::span<const planet::CameraPose> places, double radiusM) {
+    clearRuler(ruler);
+    for (const planet::CameraPose& place : places.first(std::min<std::size_t>(places.size(), 2))) {
+        const glm::dvec3 direction = planet::directionFromGeographic(
+            {glm::radians(place.latitudeDeg), glm::radians(place.longitudeDeg)});
+        placeRulerEnd(ruler, (radiusM + place.altitudeM) * direction);
+    }
 }
 
 void swapRulerEnds(Ruler& ruler) {

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "planet/gl/draw/debug_shapes.h"
 #include "planet/measure/ground_profile.h"
 #include "planet/planet.h"
+#include "planet/sphere/view.h"
 
 namespace worldy {
 
@@ -40,6 +42,9 @@ struct Ruler {
 
 // Places the first end, then the second one; after both, begins again with the first.
 void placeRulerEnd(Ruler& ruler, const glm::dvec3& positionM);
+// The ends as places on the globe, to keep them for the next start; directions of the poses mean nothing.
+std::vector<planet::CameraPose> rulerPlaces(const Ruler& ruler, double radiusM);
+void setRulerPlaces(Ruler& ruler, std::span<const planet::CameraPose> places, double radiusM);
 void swapRulerEnds(Ruler& ruler);
 void clearRuler(Ruler& ruler);
 // Call when another planet is shown. The ends stay at their latitudes and longitudes.

@@ -39,8 +39,9 @@ enum class PanelId : std::uint8_t {
     Notes
 };
 
-enum class Dock : std::uint8_t { Left, Right, Bottom };
-inline constexpr std::size_t dockCount = 3;
+// Second: a window of the operating system for a second monitor, which is open while it has panels.
+enum class Dock : std::uint8_t { Left, Right, Bottom, Second };
+inline constexpr std::size_t dockCount = 4;
 
 struct PanelInfo {
     PanelId id;

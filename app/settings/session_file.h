@@ -1,23 +1,39 @@
 // The window goes on with this at its next start without a file. The layout and all settings are in the settings file.
 //
-//     file = "/terrain/alps.tif"                          # the planet that was shown
-//     camera = "46.4,6.9,6000,180,-10"                     # latitude, longitude, altitude in metres, heading, pitch
-//     trace = "/traces/engine.lodtrace"                    # the open trace
+//     file = "/terrain/alps.tif"                   # the planet that was shown
+//     camera = "46.4,6.9,6000,180,-10"              # latitude, longitude, altitude in metres, heading, pitch
+//     trace = "/traces/engine.lodtrace"             # the open trace
+//     ruler = ["46.4,6.9,410", "46.5,7.1,2200"]     # the ends: latitude, longitude, altitude in metres
+//     [compare]                                     # B, if two planets were compared
+//     file = "/terrain/alps_33.chk"                 # only if it was another file than A's
+//     origin = "preset popping"
+//     settings = ["lod.tau_px=3"]                   # those that are not the default
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/settings/view_settings.h"
 #include "planet/base/result.h"
 #include "planet/sphere/view.h"
 
 namespace worldy {
 
+struct LastComparison {
+    std::filesystem::path file{};  // empty: the file of the shown planet
+    std::string origin{};          // "snapshot", "preset popping"
+    ViewSettings settings{};       // of B
+};
+
 struct LastSession {
     std::filesystem::path file{};  // a source or a chunk file; empty: the planet that comes with Worldy
     std::optional<planet::CameraPose> camera{};
     std::filesystem::path trace{};  // empty: none
+    std::vector<planet::CameraPose>
+        ruler{};  // the places of its ends, at most two; their directions mean nothing
+    std::optional<LastComparison> compare{};
 };
 
 // Returns configFolder()/session.toml.

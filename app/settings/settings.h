@@ -32,7 +32,8 @@ inline constexpr std::array<std::string_view, 4> compareModeNames = {"side_by_si
 inline constexpr std::array<std::string_view, 3> featureUseNames = {"automatic", "on", "off"};
 inline constexpr std::array<std::string_view, 3> layerPreviewNames = {"off", "heat", "mask"};
 inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
-inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "bottom"};
+inline constexpr std::array<std::string_view, dockCount> dockNames = {"left", "right", "bottom",
+                                                                      "second_window"};
 inline constexpr std::array<std::string_view, 4> maximisedDockNames = {"none", "left", "right", "bottom"};
 
 struct Settings {
@@ -42,6 +43,7 @@ struct Settings {
     planet::CameraPose camera{.altitudeM = 0};  // the start of a session
     int windowWidthPx = 1600;
     int windowHeightPx = 1000;
+    SecondWindowPlace secondWindow{};
     Workspace workspace;
 };
 

@@ -504,6 +504,14 @@ void addWindow(Fields& fields, Settings& s) {
           Integer{&s.windowWidthPx, {640, 16384, "px"}}},
          {"window", "height_px", "Window height", "Height of the window.",
           Integer{&s.windowHeightPx, {400, 16384, "px"}}},
+         {"window", "second_x_px", "Second window: left", "Place of the second window on the screen.",
+          Integer{&s.secondWindow.x, {SecondWindowPlace::nowhere, 32767, "px"}}},
+         {"window", "second_y_px", "Second window: top", "Place of the second window on the screen.",
+          Integer{&s.secondWindow.y, {SecondWindowPlace::nowhere, 32767, "px"}}},
+         {"window", "second_width_px", "Second window: width", "Width of the second window.",
+          Integer{&s.secondWindow.width, {320, 16384, "px"}}},
+         {"window", "second_height_px", "Second window: height", "Height of the second window.",
+          Integer{&s.secondWindow.height, {200, 16384, "px"}}},
          {"window", "left_width", "Left dock", "Width of the left dock, in units that follow the font.",
           Number{&workspace.leftWidth, {160, 1000, ""}}},
          {"window", "right_width", "Right dock", "Width of the right dock, in units that follow the font.",
@@ -524,8 +532,8 @@ void addWindow(Fields& fields, Settings& s) {
           "can.",
           Flag{&workspace.preferences.vsync}},
          {"window", "resume", "Go on with the last session",
-          "Without a file on the command line, opens the planet, the camera and the trace of the last "
-          "session.",
+          "Without a file on the command line, opens what the last session showed: the planet, the camera, the "
+          "trace, the comparison and the ruler.",
           Flag{&workspace.preferences.resume}}});
 }
 
@@ -645,7 +653,7 @@ void addViewSettings(Fields& fields, ViewSettings& view) {
 }
 
 // The size of the largest list, so that it is allocated once.
-constexpr std::size_t fieldCount = 120 + 2 * panelCount + dockCount;
+constexpr std::size_t fieldCount = 124 + 2 * panelCount + dockCount;
 
 }  // namespace
 

@@ -63,6 +63,17 @@ struct WindowPreferences {
     bool operator==(const WindowPreferences&) const = default;
 };
 
+// The content of the second window on the screen, in screen coordinates. A place that no monitor shows is replaced.
+struct SecondWindowPlace {
+    int x = nowhere;
+    int y = nowhere;
+    int width = 900;
+    int height = 900;
+
+    static constexpr int nowhere = -32768;
+    bool operator==(const SecondWindowPlace&) const = default;
+};
+
 // The layout of the window, kept between sessions. Sizes are in units of a 13 px font, so that they fit any
 // monitor.
 struct Workspace {
@@ -72,7 +83,7 @@ struct Workspace {
     std::array<PanelPlace, panelCount> panels = firstPlaces();
     PanelOrder order = firstOrder();  // of the tabs, in every dock; each panel once
     // The panel that each dock shows; ignored if that panel is not docked there.
-    std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging};
+    std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging, PanelId::Log};
     // The dock that fills the area between the menu bar and the status bar; ignored if it has no panel.
     MaximisedDock maximised = MaximisedDock::None;
     WindowPreferences preferences;  // not a part of a layout

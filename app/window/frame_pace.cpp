@@ -10,6 +10,10 @@ constexpr double slowFrameS = 0.1;
 
 }  // namespace
 
+double scriptedRestS(Activity activity) {
+    return activity == Activity::Motion ? 0 : slowFrameS;
+}
+
 void FramePace::noteInput(double nowS) {
     lastMotionS_ = lastChangeS_ = nowS;
 }

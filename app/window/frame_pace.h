@@ -23,6 +23,10 @@ inline constexpr double runOutS = 11;
 // The longest rest. A change that no event announces, such as an edited shader, is seen after it.
 inline constexpr double longestRestS = 15;
 
+// Returns how long the next frame may wait for input or for a script that asks for it, seconds. A script counts frames and
+// needs no plots to run out.
+double scriptedRestS(Activity activity);
+
 // All times are in seconds and never decrease.
 class FramePace {
 public:

@@ -69,12 +69,67 @@ GLFWwindow* createHiddenWindow(GLFWwindow* sharing) {
     return window;
 }
 
+// Clears the background behind docks and pictures at once; with software rendering, filling it per window takes much of a
+// frame.
+void clearForPanels(int widthPx, int heightPx) {
+    glViewport(0, 0, widthPx, heightPx);
+    const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
+    glClearColor(ground.x, ground.y, ground.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+// The part of a monitor that windows may cover, in screen coordinates.
+struct WorkArea {
+    int x, y, width, height;
+
+    bool contains(int atX, int atY) const {
+        return atX >= x && atY >= y && atX < x + width && atY < y + height;
+    }
+};
+
+std::vector<WorkArea> workAreas() {
+    int count = 0;
+    GLFWmonitor** const monitors = glfwGetMonitors(&count);
+    std::vector<WorkArea> areas;
+    for (int i = 0; i < count; ++i) {
+        WorkArea area{};
+        glfwGetMonitorWorkarea(monitors[i], &area.x, &area.y, &area.width, &area.height);
+        areas.push_back(area);
+    }
+    return areas;
+}
+
+// Returns the place if a monitor shows the top of the window there; otherwise one on a monitor without the main window, or
+// beside the main window's top left if there is only one monitor.
+SecondWindowPlace reachablePlace(SecondWindowPlace place, GLFWwindow* main) {
+    constexpr int marginPx = 60;
+    const std::vector<WorkArea> areas = workAreas();
+    if (std::ranges::any_of(areas, [&](const WorkArea& area) {
+            return area.contains(place.x + marginPx, place.y + marginPx);
+        }))
+        return place;
+    int x = 0, y = 0, width = 0, height = 0;
+    glfwGetWindowPos(main, &x, &y);
+    glfwGetWindowSize(main, &width, &height);
+    place.x = x + marginPx;
+    place.y = y + marginPx;
+    for (const WorkArea& area : areas) {
+        if (area.contains(x + width / 2, y + height / 2)) continue;
+        place.x = area.x + marginPx;
+        place.y = area.y + marginPx;
+        break;
+    }
+    return place;
+}
+
 }  // namespace
 
 // GLFW and the window, destroyed together in the right order.
 struct Window::Glfw {
     GLFWwindow* window = nullptr;
     GLFWwindow* besides = nullptr;  // never shown; its context shares the window's objects
+    GLFWwindow* second = nullptr;   // for a second monitor; its context shares the objects too; null: closed
+    bool pressedInSecond = false;   // the last button that went down
     InputQueue input;
     std::array<bool, GLFW_MOUSE_BUTTON_LAST + 1> buttonsDown{};  // in this frame
     std::array<double, GLFW_MOUSE_BUTTON_LAST + 1> pressedAtS = neverPressed();
@@ -94,13 +149,21 @@ struct Window::Glfw {
     static Glfw& of(GLFWwindow* handle) { return *static_cast<Glfw*>(glfwGetWindowUserPointer(handle)); }
 
     ~Glfw() {
+        if (second) glfwDestroyWindow(second);
         if (besides) glfwDestroyWindow(besides);
         if (window) glfwDestroyWindow(window);
         glfwTerminate();
     }
 
-    void listen();
-    void listenForChanges();
+    void listenTo(GLFWwindow* handle);
+    static void listenForChanges(GLFWwindow* handle);
+    // Returns a window's own position as one on the canvas.
+    glm::dvec2 onCanvas(const GLFWwindow* handle, glm::dvec2 position) const {
+        return handle == second ? position + glm::dvec2(static_cast<double>(ui::secondWindowX), 0) : position;
+    }
+    // Returns the pointer's position on the canvas if it is in the second window, or if a button is held that went down
+    // there.
+    std::optional<glm::dvec2> pointerOfSecond() const;
     // Passes the events of the next frame to ImGui. Returns the pointer's position if a button changed.
     std::optional<glm::dvec2> giveInput();
 };
@@ -122,9 +185,9 @@ int glfwAction(InputKind kind) {
 
 }  // namespace
 
-void Window::Glfw::listen() {
-    glfwSetWindowUserPointer(window, this);
-    glfwSetKeyCallback(window, [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
+void Window::Glfw::listenTo(GLFWwindow* source) {
+    glfwSetWindowUserPointer(source, this);
+    glfwSetKeyCallback(source, [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
         const InputKind kind = action == GLFW_PRESS     ? InputKind::KeyDown
                                : action == GLFW_RELEASE ? InputKind::KeyUp
                                                         : InputKind::KeyRepeat;
@@ -132,46 +195,56 @@ void Window::Glfw::listen() {
         of(handle).input.add(
             {.kind = kind, .code = key, .scancode = scancode, .modifiers = modifiers, .atS = glfwGetTime()});
     });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* handle, int button, int action, int modifiers) {
+    glfwSetMouseButtonCallback(source, [](GLFWwindow* handle, int button, int action, int modifiers) {
         glm::dvec2 pointer{0, 0};
         glfwGetCursorPos(handle, &pointer.x, &pointer.y);
+        pointer = of(handle).onCanvas(handle, pointer);
         const InputKind kind = action == GLFW_PRESS ? InputKind::ButtonDown : InputKind::ButtonUp;
         of(handle).hasInput = true;
         of(handle).input.add({kind, button, 0, modifiers, pointer, glfwGetTime()});
     });
-    glfwSetCharCallback(window, [](GLFWwindow* handle, unsigned int letter) {
+    glfwSetCharCallback(source, [](GLFWwindow* handle, unsigned int letter) {
         of(handle).hasInput = true;
         of(handle).input.add({InputKind::Text, static_cast<int>(letter)});
     });
-    glfwSetDropCallback(window, [](GLFWwindow* handle, int count, const char** files) {
+    glfwSetDropCallback(source, [](GLFWwindow* handle, int count, const char** files) {
         of(handle).hasInput = true;
         of(handle).droppedFiles.assign(files, files + count);
     });
-    glfwSetScrollCallback(window, [](GLFWwindow* handle, double right, double up) {
+    glfwSetScrollCallback(source, [](GLFWwindow* handle, double right, double up) {
         of(handle).hasInput = true;
         ImGui_ImplGlfw_ScrollCallback(handle, right, up);
     });
-    glfwSetCursorEnterCallback(window, [](GLFWwindow* handle, int entered) {
+    glfwSetCursorEnterCallback(source, [](GLFWwindow* handle, int entered) {
         of(handle).hasInput = true;
         ImGui_ImplGlfw_CursorEnterCallback(handle, entered);
     });
-    glfwSetWindowFocusCallback(window, [](GLFWwindow* handle, int focused) {
+    glfwSetWindowFocusCallback(source, [](GLFWwindow* handle, int focused) {
         of(handle).hasInput = true;
         ImGui_ImplGlfw_WindowFocusCallback(handle, focused);
     });
     glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
-    listenForChanges();
+    listenForChanges(source);
 }
 
 // ImGui's backend asks for the pointer and the size in each frame. These events only say that a frame is needed.
-void Window::Glfw::listenForChanges() {
-    glfwSetCursorPosCallback(window, [](GLFWwindow* handle, double, double) { of(handle).hasInput = true; });
-    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* handle, int, int) { of(handle).hasInput = true; });
-    glfwSetWindowContentScaleCallback(window,
+void Window::Glfw::listenForChanges(GLFWwindow* source) {
+    glfwSetCursorPosCallback(source, [](GLFWwindow* handle, double, double) { of(handle).hasInput = true; });
+    glfwSetFramebufferSizeCallback(source, [](GLFWwindow* handle, int, int) { of(handle).hasInput = true; });
+    glfwSetWindowContentScaleCallback(source,
                                       [](GLFWwindow* handle, float, float) { of(handle).hasInput = true; });
-    glfwSetWindowRefreshCallback(window, [](GLFWwindow* handle) { of(handle).hasInput = true; });
-    glfwSetWindowIconifyCallback(window, [](GLFWwindow* handle, int) { of(handle).hasInput = true; });
-    glfwSetWindowCloseCallback(window, [](GLFWwindow* handle) { of(handle).hasInput = true; });
+    glfwSetWindowRefreshCallback(source, [](GLFWwindow* handle) { of(handle).hasInput = true; });
+    glfwSetWindowIconifyCallback(source, [](GLFWwindow* handle, int) { of(handle).hasInput = true; });
+    glfwSetWindowCloseCallback(source, [](GLFWwindow* handle) { of(handle).hasInput = true; });
+}
+
+std::optional<glm::dvec2> Window::Glfw::pointerOfSecond() const {
+    if (!second) return std::nullopt;
+    const bool isHeld = std::ranges::find(buttonsDown, true) != buttonsDown.end();
+    if (isHeld ? !pressedInSecond : glfwGetWindowAttrib(second, GLFW_HOVERED) == 0) return std::nullopt;
+    glm::dvec2 pointer{0, 0};
+    glfwGetCursorPos(second, &pointer.x, &pointer.y);
+    return onCanvas(second, pointer);
 }
 
 void Window::Glfw::notePress(std::size_t button, double atS) {
@@ -194,8 +267,10 @@ std::optional<glm::dvec2> Window::Glfw::giveInput() {
             case InputKind::ButtonDown:
             case InputKind::ButtonUp:
                 pointer = event.pointer;
-                if (event.kind == InputKind::ButtonDown)
+                if (event.kind == InputKind::ButtonDown) {
                     notePress(static_cast<std::size_t>(event.code), event.atS);
+                    pressedInSecond = event.pointer.x >= static_cast<double>(ui::secondWindowX);
+                }
                 buttonsDown.at(static_cast<std::size_t>(event.code)) = event.kind == InputKind::ButtonDown;
                 break;
             case InputKind::KeyDown:
@@ -266,7 +341,7 @@ void Window::startImGui(const WindowConfig& config) {
     ImGui::GetIO().ConfigMemoryCompactTimer = -1;
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
-    glfw_->listen();
+    glfw_->listenTo(glfw_->window);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     panelsTimer_.emplace();
     setTheme(config.theme, config.scale);
@@ -287,6 +362,76 @@ void Window::setTheme(Theme theme, double scale) {
     if (!first) ImGui_ImplOpenGL3_DestroyFontsTexture();
     ui::applyTheme(theme, wanted);
     if (!first) ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+bool Window::showSecond(bool shown, const SecondWindowPlace& place) {
+    GLFWwindow*& second = glfw_->second;
+    if (shown == (second != nullptr)) return true;
+    if (!shown) {
+        glfwDestroyWindow(std::exchange(second, nullptr));
+        glfw_->buttonsDown = {};  // the window that would tell of a release is gone
+        return true;
+    }
+    second = glfwCreateWindow(place.width, place.height, "Worldy: second window", nullptr, glfw_->window);
+    if (!second) return false;
+    const SecondWindowPlace reachable = reachablePlace(place, glfw_->window);
+    glfwSetWindowPos(second, reachable.x, reachable.y);
+    glfwSetWindowSizeLimits(second, 320, 200, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfw_->listenTo(second);
+    // The main window waits for its monitor; waiting for both would halve the frames.
+    glfwMakeContextCurrent(second);
+    glfwSwapInterval(0);
+    glfwMakeContextCurrent(glfw_->window);
+    return true;
+}
+
+ui::Rect Window::secondRect() const {
+    if (!glfw_->second) return {};
+    int width = 0, height = 0;
+    glfwGetWindowSize(glfw_->second, &width, &height);
+    return {ui::secondWindowX, 0, static_cast<float>(width), static_cast<float>(height)};
+}
+
+std::optional<SecondWindowPlace> Window::secondPlace() const {
+    if (!glfw_->second) return std::nullopt;
+    SecondWindowPlace place;
+    glfwGetWindowPos(glfw_->second, &place.x, &place.y);
+    glfwGetWindowSize(glfw_->second, &place.width, &place.height);
+    return place;
+}
+
+glm::dvec2 Window::secondFromMain() const {
+    const std::optional<SecondWindowPlace> place = secondPlace();
+    if (!place) return {0, 0};
+    int x = 0, y = 0;
+    glfwGetWindowPos(glfw_->window, &x, &y);
+    return {place->x - x, place->y - y};
+}
+
+bool Window::takeSecondClosed() const {
+    if (!glfw_->second || glfwWindowShouldClose(glfw_->second) == 0) return false;
+    glfwSetWindowShouldClose(glfw_->second, GLFW_FALSE);
+    return true;
+}
+
+// Draws ImGui's windows again, from another place of the canvas. Textures and buffers are shared; the backend makes the
+// vertex array, which is not, for each drawing.
+void Window::drawSecond() const {
+    if (!glfw_->second) return;
+    const ui::Rect rect = secondRect();
+    int widthPx = 0, heightPx = 0;
+    glfwGetFramebufferSize(glfw_->second, &widthPx, &heightPx);
+    if (rect.width <= 0 || rect.height <= 0 || widthPx <= 0 || heightPx <= 0) return;
+    ImDrawData part = *ImGui::GetDrawData();
+    part.DisplayPos = {rect.x, rect.y};
+    part.DisplaySize = {rect.width, rect.height};
+    part.FramebufferScale = {static_cast<float>(widthPx) / rect.width,
+                             static_cast<float>(heightPx) / rect.height};
+    glfwMakeContextCurrent(glfw_->second);
+    clearForPanels(widthPx, heightPx);
+    ImGui_ImplOpenGL3_RenderDrawData(&part);
+    glfwSwapBuffers(glfw_->second);
+    glfwMakeContextCurrent(glfw_->window);
 }
 
 void Window::waitForMonitor(bool waits) {
@@ -341,7 +486,8 @@ void Window::beginFrame(double waitS) const {
     // ImGui's backend reads the current buttons and pointer, which may be later than the event.
     ImGuiIO& io = ImGui::GetIO();
     std::copy_n(glfw_->buttonsDown.begin(), std::size(io.MouseDown), std::begin(io.MouseDown));
-    if (pointer) io.MousePos = {static_cast<float>(pointer->x), static_cast<float>(pointer->y)};
+    if (const auto at = pointer ? pointer : glfw_->pointerOfSecond())
+        io.MousePos = {static_cast<float>(at->x), static_cast<float>(at->y)};
     // ImGui measures the time between two presses in frames, of which a slow one would part them.
     if (const auto twice = glfw_->pressedTwice; twice && *twice < std::size(io.MouseClickedTime))
         io.MouseClickedTime[*twice] = ImGui::GetTime() + static_cast<double>(io.DeltaTime);
@@ -353,12 +499,7 @@ void Window::endFrame(const std::function<void()>& drawn) {
     int widthPx = 0, heightPx = 0;
     glfwGetFramebufferSize(glfw_->window, &widthPx, &heightPx);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, widthPx, heightPx);
-    // Clears the background behind docks and pictures at once; with software rendering, filling it per window
-    // takes much of a frame.
-    const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
-    glClearColor(ground.x, ground.y, ground.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
+    clearForPanels(widthPx, heightPx);
     panelsTimer_->begin();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     panelsTimer_->end();
@@ -366,6 +507,7 @@ void Window::endFrame(const std::function<void()>& drawn) {
     const Stopwatch present;
     glfwSwapBuffers(glfw_->window);
     presentMs_ = present.elapsedMs();
+    drawSecond();
     glfw_->droppedFiles.clear();
 }
 

@@ -71,6 +71,17 @@ public:
     // Returns the files dropped onto the window since the last frame.
     const std::vector<std::filesystem::path>& droppedFiles() const;
 
+    // Opens or closes the second window. It shows ImGui's canvas from ui::secondWindowX on. Returns false if the system
+    // cannot open it; nothing is shown then.
+    bool showSecond(bool shown, const SecondWindowPlace& place);
+    // Return where the second window is on the canvas, empty while it is closed, and on the screen.
+    ui::Rect secondRect() const;
+    std::optional<SecondWindowPlace> secondPlace() const;
+    // Returns the top left of the second window on the screen, relative to this window's.
+    glm::dvec2 secondFromMain() const;
+    // Returns once that the user wants to close the second window.
+    bool takeSecondClosed() const;
+
     // Limits the frames to those of the monitor, or not at all. Cheap if nothing has changed.
     void waitForMonitor(bool waits);
     // Updates fonts and colours if the theme or scale has changed. Call between two frames.
@@ -96,6 +107,7 @@ public:
 private:
     Window() = default;
     void startImGui(const WindowConfig& config);
+    void drawSecond() const;
     float contentScale() const;
 
     struct Glfw;

@@ -190,5 +190,39 @@ key Escape; key Escape
     EXPECT_EQ(contentOf(layouts / "broken.toml"), "[panels]\nlod = \"top\"\n");
 }
 
+// Both windows are on one screen, beside each other. Places in the second one begin at 16384 in the item map.
+TEST_F(DocksWindowTest, aPanelWorksInASecondWindowAndReturns) {
+    writeWindowSettings(folder,
+                        "[window]\nwidth_px = 800\nheight_px = 500\nsecond_x_px = 810\nsecond_y_px = 20\n"
+                        "second_width_px = 380\nsecond_height_px = 420\n");
+    drive(R"sh(
+place() { awk -F'\t' -v n="$1" '$1 == n {x = $2; y = $3; if (x >= 16384) {x += 810 - 16384; y += 20}; print x, y, $4, $5; exit}' items.txt 2>/dev/null; }
+is_second() { [ "$(xdotool search --name 'second window' 2>/dev/null | wc -l)" -eq $1 ]; }
+in_second() { [ "$(left "$1")" -ge 810 ]; }
+move_out() { point tab/LOD; xdotool click 3; frames 4; click "tab menu/Move to the second window"; expect is_second 1; expect in_second tab/LOD; }
+before=$(place viewport/picture)
+move_out
+in_second tab/Seams && echo "Seams has moved too"
+# Sliders, lists and keys work there.
+drawn=$(counter triangles); slide "lod/Tolerance τ" 0.15; settle
+[ $(counter triangles) -gt $drawn ] || echo "the slider does not work: $(counter triangles) of $drawn triangles"
+click "lod/Error metric"; expect in_second "lod/Error metric: tight"; click "lod/Error metric: tight"
+key F2; expect counts lod_frozen -eq 1; key F2
+# A maximised dock leaves it alone.
+double_click tab/Frame; expect shown tab/Restore; in_second tab/LOD || echo "a maximised dock covers the second window"; key Escape
+# It is dragged back into the dock that it came from, and the window closes.
+drag tab/LOD tab/Seams 0.1 0.5; expect shown drop/Preview; release
+expect is_second 0; in_second tab/LOD && echo "LOD is still in the second window"
+is_left_of tab/LOD tab/Seams || echo "LOD is not before Seams"
+[ "$(place viewport/picture)" = "$before" ] || echo "the viewport was $before, is $(place viewport/picture)"
+# Dropped outside of the window, it goes into the second one. Another start opens it again.
+point tab/LOD; press; xdotool mousemove 760 200; frames; xdotool mousemove 1000 200; frames; release
+expect is_second 1; expect in_second tab/LOD
+)sh",
+          {"1200x500", 60});
+    EXPECT_THAT(settingsOf(folder), HasSubstr("lod = \"second_window\""));
+    EXPECT_THAT(settingsOf(folder), HasSubstr("second_x_px = 810"));
+}
+
 }  // namespace
 }  // namespace worldy

@@ -13,15 +13,18 @@ inline bool canOpenWindows() {
 // What the steps may use. Names are those of the item map: "tab/LOD", "lod/Tolerance τ", "viewport/picture".
 inline constexpr const char* windowFunctions = R"sh(
 shot() { import -window root "$1"; }
-# Far longer than it takes: under a sanitizer all is ten times as slow. Once something has not come, what
-# rests on it will not either.
+# Sleeps without starting a program.
+mkfifo nap; exec 9<>nap
+nap() { read -rt "$1" -u 9; }
+# Seconds to wait, far longer than it takes: under a sanitizer all is ten times as slow. After something has not come, the
+# steps that rely on it will not come either.
 patience=60
 until_true() {
     local end=$((SECONDS + patience))
     while [ $SECONDS -lt $end ]; do
         "$@" && return 0
         kill -0 $worldy 2>/dev/null || { echo "worldy has ended: $*"; return 1; }
-        sleep 0.05
+        nap 0.02
     done
     patience=2
     return 1
@@ -32,17 +35,28 @@ times_said() { [ "$(grep -c -- "$1" .stderr)" -eq "$2" ]; }
 place() { awk -F'\t' -v n="$1" '$1 == n {print $2, $3, $4, $5; exit}' items.txt 2>/dev/null; }
 shown() { [ -n "$(place "$1")" ]; }
 hidden() { [ -z "$(place "$1")" ]; }
-counter() { awk -F'\t' -v n="counter/$1" '$1 == n {print $2; exit}' items.txt 2>/dev/null; }
+# The counters are the first lines.
+counter() {
+    local name value
+    while IFS=$'\t' read -r name value; do
+        case $name in "counter/$1") echo "$value"; return ;; counter/*) ;; *) return ;; esac
+    done 2>/dev/null <items.txt
+}
 # counts drawn -gt 100
 counts() { [ "$(counter "$1")" "$2" "$3" ]; }
-# Waits until all that was done by now has come to be seen: frames that began after it have ended, and no key or button
-# waits for its frame.
-frames() { set -- $(($(counter frame) + ${1:-3})) ${1:-3}; until_true counts frame -ge $1 || return 1; counts queued_input -eq 0 || frames $2; }
+# Asks for frames and waits until all that was done by now is seen: frames that began after it have ended, and no key or
+# button waits for its frame.
+frames() {
+    local last=$(($(counter frame) + ${1:-3}))
+    echo $last >items.txt.ask
+    until_true counts frame -ge $last || return 1
+    counts queued_input -eq 0 || frames ${1:-3}
+}
 at() { set -- $(place "$1") $2 $3; awk -v x=$1 -v y=$2 -v w=$3 -v h=$4 -v a=$5 -v b=$6 'BEGIN {printf "%d %d", x + a * w, y + b * h}'; }
 # Where it comes to rest: panels may still be making room.
 at_rest() { local was="$(place "$1")"; frames 2 && [ "$was" = "$(place "$1")" ]; }
 point() {
-    until_true shown "$1" || { echo "there is no $1"; return 1; }
+    until_true shown "$1" || { echo "there is no $1"; [ -z "$KEEP" ] || { shot $KEEP.png; cp items.txt $KEEP.txt; }; return 1; }
     xdotool mousemove $(at "$1" ${2:-0.5} ${3:-0.5})
     at_rest "$1" || { until_true at_rest "$1"; xdotool mousemove $(at "$1" ${2:-0.5} ${3:-0.5}); frames; }
 }
@@ -77,7 +91,8 @@ differs() { [ "$(viewport)" != "$1" ]; }
 same() { [ "$(viewport)" = "$1" ]; }
 is_open() { [ -n "$(counter file)" ]; }
 loaded() { counts queued -eq 0 && counts loading -eq 0 && counts stand_in -eq 0; }
-still() { set -- "$(viewport)"; frames 4; [ "$1" = "$(viewport)" ]; }
+# The window tells when nothing moves. While it records, for example, the pictures tell it.
+still() { counts moving -eq 0 && return; set -- "$(viewport)"; frames 4; [ "$1" = "$(viewport)" ]; }
 settled() { loaded && still; }
 settle() { frames 4; until_true settled || echo 'the planet does not settle'; }
 )sh";

@@ -32,12 +32,14 @@ first=$(counter camera); point viewport/picture 0.6 0.4
 for i in 1 2 3 4 5 6; do xdotool click 4; done; frames 20; settle
 [ "$(counter camera)" != "$first" ] || echo "the camera does not move"
 counter camera >last_camera
+key ctrl+shift+6; click "compare/Snapshot as B"; expect counts compared -eq 1
 )sh");
     drive("", R"sh(
 case "$(counter file)" in */planet.chk) ;; *) false ;; esac || echo "$(counter file) is shown"
 rounded() { tr , "\n" | xargs printf "%.3f " | sed "s,-\(0\.000\),\1,g"; }
 is_there() { [ "$(counter camera | rounded)" = "$(rounded <last_camera)" ]; }
 expect is_there || echo "the camera is at $(counter camera), not at $(cat last_camera)"
+expect counts compared -eq 1
 )sh");
 }
 

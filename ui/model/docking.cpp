@@ -97,6 +97,10 @@ DropTarget amongTabs(const TabRow& row, PanelId panel, Point pointer) {
     return target;
 }
 
+Rect mainWindow(const Layout& layout) {
+    return {0, 0, layout.area.width, layout.menuBar.height + layout.area.height + layout.statusBar.height};
+}
+
 // Returns the empty dock that a panel opens at an edge of the area.
 std::optional<Dock> edgeAt(Point pointer, const Layout& layout, float unitPx) {
     const Rect& area = layout.area;
@@ -139,7 +143,8 @@ bool isVisible(PanelId panel, const Workspace& workspace) {
     const PanelPlace& place = placeOf(panel, workspace);
     if (!place.shown || place.floats) return place.shown;
     const std::optional<Dock> maximised = maximisedDock(workspace);
-    return frontPanel(place.dock, workspace) == panel && (!maximised || *maximised == place.dock);
+    const bool isCovered = maximised && *maximised != place.dock && place.dock != Dock::Second;
+    return frontPanel(place.dock, workspace) == panel && !isCovered;
 }
 
 void showPanel(PanelId panel, Workspace& workspace) {
@@ -148,7 +153,8 @@ void showPanel(PanelId panel, Workspace& workspace) {
     if (place.floats) return;
     workspace.inFront[static_cast<std::size_t>(place.dock)] = panel;
     const std::optional<Dock> maximised = maximisedDock(workspace);
-    if (maximised && *maximised != place.dock) workspace.maximised = MaximisedDock::None;
+    if (maximised && *maximised != place.dock && place.dock != Dock::Second)
+        workspace.maximised = MaximisedDock::None;
 }
 
 void togglePanel(PanelId panel, Workspace& workspace) {
@@ -160,6 +166,7 @@ void togglePanel(PanelId panel, Workspace& workspace) {
 }
 
 void toggleMaximised(Dock dock, Workspace& workspace) {
+    if (dock == Dock::Second) return;
     if (maximisedDock(workspace) == dock)
         workspace.maximised = MaximisedDock::None;
     else
@@ -186,6 +193,13 @@ void dockPanel(PanelId panel, Dock dock, std::size_t position, Workspace& worksp
     place.dock = dock;
     place.floats = false;
     showPanel(panel, workspace);
+}
+
+void leaveSecondWindow(Workspace& workspace) {
+    for (const PanelInfo& info : panelInfos) {
+        Dock& dock = placeOf(info.id, workspace).dock;
+        if (dock == Dock::Second) dock = info.dock;
+    }
 }
 
 void floatPanel(PanelId panel, const FloatingPlace& floating, Workspace& workspace) {
@@ -215,6 +229,20 @@ FloatingPlace floatingPlace(const Rect& rect, const Rect& area, float unitPx, co
     return place;
 }
 
+Point pointerOverWindows(Point pointer, const Layout& layout) {
+    const Rect& second = layout.docks[static_cast<std::size_t>(Dock::Second)];
+    if (second.width <= 0) return pointer;
+    const bool isOfSecond = pointer.x >= secondWindowX / 2;
+    const Point onMain =
+        isOfSecond ? Point{pointer.x - second.x + layout.secondLeft, pointer.y - second.y + layout.secondTop}
+                   : pointer;
+    const Point onSecond{onMain.x - layout.secondLeft + second.x, onMain.y - layout.secondTop + second.y};
+    // Where the windows overlap, the one that holds the button is taken.
+    const bool isOverMain = contains(mainWindow(layout), onMain);
+    const bool isOverSecond = contains(second, onSecond);
+    return isOverSecond && (isOfSecond || !isOverMain) ? onSecond : onMain;
+}
+
 DropTarget dropTarget(Point pointer, PanelId panel, const Layout& layout, std::span<const TabRow> rows,
                       const Workspace& workspace, float unitPx) {
     for (const TabRow& row : rows) {
@@ -228,13 +256,15 @@ DropTarget dropTarget(Point pointer, PanelId panel, const Layout& layout, std::s
         const std::size_t end = without(panelsIn(row.dock, workspace), panel).size();
         return {row.dock, stays ? positionIn(row.dock, panel, workspace) : end, std::nullopt};
     }
+    if (!contains(mainWindow(layout), pointer)) return {Dock::Second, panelCount};
     if (maximisedDock(workspace)) return {};
     return {edgeAt(pointer, layout, unitPx)};
 }
 
 std::string dropText(const DropTarget& target, PanelId panel, const Workspace& workspace) {
     if (!target.dock) return "Float";
-    constexpr std::array<const char*, dockCount> names = {"Left dock", "Right dock", "Bottom dock"};
+    constexpr std::array<const char*, dockCount> names = {"Left dock", "Right dock", "Bottom dock",
+                                                          "Second window"};
     const char* const name = names[static_cast<std::size_t>(*target.dock)];
     const std::vector<PanelId> others = without(panelsIn(*target.dock, workspace), panel);
     if (others.empty()) return name;

@@ -41,7 +41,7 @@ void showPanel(PanelId panel, Workspace& workspace);
 // Hides a visible panel; shows any other.
 void togglePanel(PanelId panel, Workspace& workspace);
 
-// Maximises the dock, or restores it if it is maximised.
+// Maximises the dock, or restores it if it is maximised. The second window has no dock to maximise.
 void toggleMaximised(Dock dock, Workspace& workspace);
 
 // Moves a panel into a dock, in front, before the tab at the position among those of its other panels; a
@@ -50,6 +50,8 @@ void dockPanel(PanelId panel, Dock dock, std::size_t position, Workspace& worksp
 // Returns a docked panel's position among the tabs of its dock, or the end of the dock if the panel is
 // not there.
 std::size_t positionIn(Dock dock, PanelId panel, const Workspace& workspace);
+// Returns the panels of the second window, which is closed then, to the docks where they are by default.
+void leaveSecondWindow(Workspace& workspace);
 // Lets a panel float.
 void floatPanel(PanelId panel, const FloatingPlace& place, Workspace& workspace);
 
@@ -73,7 +75,10 @@ struct DropTarget {
     std::size_t position = 0;    // among the tabs of the dock without the panel
     std::optional<Rect> mark{};  // between two tabs; none if it becomes the only tab
 };
-// Returns the target for a pointer. Over a dock's tabs, the panel goes between those that are nearest. Over the
+// Returns where a pointer is while a button is held. Its position then refers to the window in which the button went
+// down, even over the other window.
+Point pointerOverWindows(Point pointer, const Layout& layout);
+// Returns the target for a pointer. Outside of the windows, the panel goes into the second one. Over a dock's tabs, the panel goes between those that are nearest. Over the
 // rest of a dock, it goes to the end; over its own dock, it stays. At an edge of the window's area where a
 // dock has no panel, it opens that dock. Elsewhere it floats.
 DropTarget dropTarget(Point pointer, PanelId panel, const Layout& layout, std::span<const TabRow> rows,

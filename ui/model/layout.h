@@ -15,6 +15,9 @@ struct Rect {
     float height = 0;
 };
 
+// The second window is drawn to the right of all that the main window can show.
+inline constexpr float secondWindowX = 16384;
+
 struct Layout {
     Rect viewport;
     std::array<Rect, dockCount> docks;      // empty if no panel is shown
@@ -25,13 +28,16 @@ struct Layout {
     // A maximised dock fills the area. The viewport keeps its rectangle, so that the size of the picture, and
     // with it every reading in pixels, stays the same.
     bool viewportCovered = false;
+    // The top left of the second window on the screen, relative to the main window's, pixels.
+    float secondLeft = 0;
+    float secondTop = 0;
 };
 
 // Returns the dock that fills the area; none if no dock is maximised, or that dock has no panel.
 std::optional<Dock> maximisedDock(const Workspace& workspace);
 
-// Returns the layout. Floating panels take no room in it. The viewport keeps at least a third of the window in each direction, whatever the sizes
-// of the docks.
+// Returns the layout of the main window. Floating panels take no room in it, and the dock of the second window is empty.
+// The viewport keeps at least a third of the window in each direction, whatever the sizes of the docks.
 Layout layoutOf(float windowWidth, float windowHeight, const Workspace& workspace, float menuHeight,
                 float statusHeight, float unitPx);
 

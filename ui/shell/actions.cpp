@@ -72,7 +72,7 @@ void addFile(List& list) {
     list.push_back(
         {.id = "resume",
          .name = "Go on with the last session",
-         .help = "A start without a file opens the planet, the camera and the trace of the last session.",
+         .help = "A start without a file opens the planet, the camera, the trace, the comparison and the ruler of the last session.",
          .menu = Menu::File,
          .setting = "window.resume",
          .act = [](const Context& c) { c.workspace.preferences.resume = !c.workspace.preferences.resume; },
@@ -254,6 +254,12 @@ void maximiseUsedPanel(const Context& c) {
     toggleMaximised(place.dock, c.workspace);
 }
 
+std::string cannotMaximise(const Context& c) {
+    if (std::string why = needsUsedPanel(c); !why.empty()) return why;
+    return unless(dockOf(*c.menu.usedPanel, c.workspace) != Dock::Second,
+                  "A panel already fills the second window.");
+}
+
 void addFocusedPanel(List& list) {
     const auto add = [&](const char* id, const char* name, const char* help, std::vector<const char*> keys,
                          std::function<void(const Context&)> act) {
@@ -277,6 +283,9 @@ void addFocusedPanel(List& list) {
         [](const Context& c) { movePanel(Dock::Right, c); });
     add("move_panel_bottom", "Move panel to the bottom dock", "Moves the panel that had the focus last.", {},
         [](const Context& c) { movePanel(Dock::Bottom, c); });
+    add("move_panel_second", "Move panel to the second window",
+        "Moves the panel that had the focus last into a window of its own for a second monitor.", {},
+        [](const Context& c) { movePanel(Dock::Second, c); });
     add("float_panel", "Float panel", "Lets the panel that had the focus last float over the window.", {},
         [](const Context& c) {
             const auto panel = static_cast<std::size_t>(*c.menu.usedPanel);
@@ -284,6 +293,7 @@ void addFocusedPanel(List& list) {
         });
     add("maximise_dock", "Maximise dock",
         "Maximises or restores the dock of the panel that had the focus last.", {}, maximiseUsedPanel);
+    list.back().whyNot = cannotMaximise;
     add("hide_panel", "Hide panel", "Hides the panel that had the focus last.", {}, [](const Context& c) {
         c.workspace.panels[static_cast<std::size_t>(*c.menu.usedPanel)].shown = false;
     });

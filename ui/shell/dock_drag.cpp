@@ -12,16 +12,23 @@ namespace worldy::ui {
 
 namespace {
 
+Point pointerNow(const Layout& layout) {
+    const ImVec2 at = ImGui::GetIO().MousePos;
+    return pointerOverWindows({at.x, at.y}, layout);
+}
+
 // Returns where the dragged panel would float: below the pointer, inside the area.
 FloatingPlace placeAtPointer(const PanelDrag& drag, const Layout& layout, const FloatingPlace& before) {
-    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    const Point pointer = pointerNow(layout);
     const Rect rect{pointer.x - drag.grab.x, pointer.y - drag.grab.y, drag.size.x, drag.size.y};
     return floatingPlace(rect, layout.area, unitPx(), before);
 }
 
-// Returns the rectangle that the panel would fill, by laying out the window as it would be then.
+// Returns the rectangle that the panel would fill, by laying out the window as it would be then. It is empty if the panel
+// would open the second window.
 Rect rectAfterDrop(const DropTarget& target, PanelId panel, const Layout& layout,
                    const Workspace& workspace) {
+    if (*target.dock == Dock::Second) return layout.docks[static_cast<std::size_t>(Dock::Second)];
     Workspace after = workspace;
     dockPanel(panel, *target.dock, target.position, after);
     const float height = layout.menuBar.height + layout.area.height + layout.statusBar.height;
@@ -57,7 +64,7 @@ void drawPreview(const PanelDrag& drag, const DropTarget& target, const Layout& 
     const float font = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    const Point pointer = pointerNow(layout);
     const ImVec2 at(std::clamp(pointer.x + font, 0.0f, std::max(screen.x - size.x - 2 * font, 0.0f)),
                     std::clamp(pointer.y + font, 0.0f, std::max(screen.y - 2 * font, 0.0f)));
     badge(drawList, at, text.c_str(), palette().text);
@@ -107,9 +114,9 @@ void advanceDrag(const Layout& layout, DocksState& state, Workspace& workspace) 
         state.drag.reset();
         return;
     }
-    const DropTarget target = io.KeyCtrl ? DropTarget{}
-                                         : dropTarget({io.MousePos.x, io.MousePos.y}, drag.panel, layout,
-                                                      state.rows, workspace, unitPx());
+    const DropTarget target =
+        io.KeyCtrl ? DropTarget{}
+                   : dropTarget(pointerNow(layout), drag.panel, layout, state.rows, workspace, unitPx());
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return drawPreview(drag, target, layout, workspace);
     state.drag.reset();
     drop(drag, target, layout, workspace);

@@ -13,9 +13,11 @@ namespace worldy::ui {
 
 namespace {
 
-constexpr std::array<const char*, dockCount> dockNames = {"left dock", "right dock", "bottom dock"};
+constexpr std::array<const char*, dockCount> dockNames = {"left dock", "right dock", "bottom dock",
+                                                          "second window"};
+// The second window has no splitter.
 constexpr std::array<const char*, dockCount> splitterNames = {"left splitter", "right splitter",
-                                                              "bottom splitter"};
+                                                              "bottom splitter", ""};
 
 std::size_t indexOf(Dock dock) {
     return static_cast<std::size_t>(dock);
@@ -49,8 +51,9 @@ void obeyTab(const PanelInfo& info, const Rect& rect, Dock dock, const Layout& l
     if (!state.drag && ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left))
         beginTabDrag(info.id, rect, layout, workspace, state);
     if (!state.drag)
-        lateTooltip(layout.viewportCovered ? "Double-click it to restore the docks and the planet."
-                                           : "Drag it to move the panel, double-click it to maximise.");
+        lateTooltip(dock == Dock::Second ? "Drag it to move the panel, or close the window to move all back."
+                    : layout.viewportCovered ? "Double-click it to restore the docks and the planet."
+                                             : "Drag it to move the panel, double-click it to maximise.");
     if (!ImGui::BeginPopupContextItem(info.title)) return;
     panelMenu(info.id, workspace);
     ImGui::EndPopup();
@@ -82,7 +85,7 @@ void tabs(Dock dock, PanelId front, const Layout& layout, DocksState& state, Wor
         obeyTab(info, row.tabs.back(), dock, layout, state, workspace);
         setItemScope("tab");
     }
-    if (layout.viewportCovered) restoreButton(end, workspace);
+    if (layout.viewportCovered && dock != Dock::Second) restoreButton(end, workspace);
     ImGui::PopStyleVar(2);
     ImGui::Separator();
     state.rows.push_back(std::move(row));
@@ -122,6 +125,18 @@ void drawDock(Dock dock, const Layout& layout, const EditorView& view, PanelStat
     dragSplitter(dock, layout, workspace);
 }
 
+// ImGui clips windows to its viewport and keeps popups inside it, so the viewport is the second window meanwhile.
+void drawSecondWindow(const Layout& layout, const EditorView& view, PanelStates& panels, DocksState& state,
+                      Workspace& workspace, ViewSettings& settings, Commands& commands) {
+    const Rect& rect = layout.docks[indexOf(Dock::Second)];
+    ImGuiViewport& viewport = *ImGui::GetMainViewport();
+    const ImGuiViewport main = viewport;
+    viewport.Pos = viewport.WorkPos = {rect.x, rect.y};
+    viewport.Size = viewport.WorkSize = {rect.width, rect.height};
+    drawDock(Dock::Second, layout, view, panels, state, workspace, settings, commands);
+    viewport = main;
+}
+
 }  // namespace
 
 void drawDocks(const Layout& layout, const EditorView& view, PanelStates& panels, DocksState& state,
@@ -132,6 +147,7 @@ void drawDocks(const Layout& layout, const EditorView& view, PanelStates& panels
     if (!maximisedDock(workspace)) workspace.maximised = MaximisedDock::None;
     for (const Dock dock : {Dock::Left, Dock::Right, Dock::Bottom})
         drawDock(dock, layout, view, panels, state, workspace, settings, commands);
+    drawSecondWindow(layout, view, panels, state, workspace, settings, commands);
     for (const PanelId panel : floatingPanels(workspace))
         drawFloatingPanel(panel, layout, view, panels, state, workspace, settings, commands);
     advanceDrag(layout, state, workspace);

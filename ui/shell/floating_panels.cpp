@@ -17,7 +17,7 @@ namespace worldy::ui {
 namespace {
 
 constexpr std::array<const char*, dockCount> moveNames = {"Move to the left", "Move to the right",
-                                                          "Move to the bottom"};
+                                                          "Move to the bottom", "Move to the second window"};
 
 // Returns a panel to the dock that it floated from, among the tabs where it was.
 void dockBack(PanelId panel, Workspace& workspace) {
@@ -107,7 +107,9 @@ void panelMenu(PanelId panel, Workspace& workspace) {
         if (entry("Float")) floatPanel(panel, place.floating, workspace);
         ImGui::Separator();
         const bool isMaximised = maximisedDock(workspace) == place.dock;
-        if (entry(isMaximised ? "Restore" : "Maximise", isMaximised ? "Esc" : nullptr)) {
+        const char* const whyNot =
+            place.dock == Dock::Second ? "A panel already fills the second window." : nullptr;
+        if (entry(isMaximised ? "Restore" : "Maximise", isMaximised ? "Esc" : nullptr, whyNot)) {
             showPanel(panel, workspace);
             toggleMaximised(place.dock, workspace);
         }

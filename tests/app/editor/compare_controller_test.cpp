@@ -114,6 +114,37 @@ TEST_F(CompareControllerTest, anotherFileAsBIsSwappedWithItsSettings) {
     EXPECT_EQ(shown(session).fileA, coarse);
 }
 
+TEST_F(CompareControllerTest, aComparisonIsResumedWithItsFileAndItsSettings) {
+    Session session = sessionOfSlope();
+    const auto coarse = bakeTo("coarse.chk", {.faceSize = 33, .chunkSize = 33});
+    settings_.lod.tauPx = 5;
+    ASSERT_TRUE(start(session, {With::File, {}, coarse}));
+    const LastComparison other = lastComparisonOf(*controller_.other, *shownPlanet(session));
+    EXPECT_EQ(other.file, coarse);
+    ASSERT_TRUE(start(session));
+    const LastComparison snapshot = lastComparisonOf(*controller_.other, *shownPlanet(session));
+    EXPECT_TRUE(snapshot.file.empty()) << "it is A's";
+    stopCompare(controller_);
+
+    settings_.lod.tauPx = 2;
+    ASSERT_TRUE(resumeCompare(controller_, session, other, settings_));
+    frame(session);
+    EXPECT_EQ(shown(session).fileB, coarse);
+    EXPECT_EQ(controller_.other->settings.lod.tauPx, 5);
+    EXPECT_EQ(controller_.other->origin, "another file");
+    ASSERT_TRUE(resumeCompare(controller_, session, snapshot, settings_));
+    frame(session);
+    EXPECT_EQ(shown(session).fileB, shown(session).fileA);
+    EXPECT_EQ(controller_.other->origin, "snapshot");
+
+    LastComparison gone = other;
+    gone.file = folder_ / "gone.chk";
+    stopCompare(controller_);
+    EXPECT_FALSE(resumeCompare(controller_, session, gone, settings_));
+    EXPECT_FALSE(controller_.other);
+    EXPECT_THAT(controller_.problem, HasSubstr("gone.chk"));
+}
+
 TEST_F(CompareControllerTest, whatCannotBeBIsToldAndNothingChanges) {
     Session session = sessionOfSlope();
     const auto problemOf = [&](const ui::StartCompare& wanted) {

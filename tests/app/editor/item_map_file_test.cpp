@@ -43,5 +43,17 @@ TEST(ItemMapFile, theFileKeepsItsMode) {
               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
+TEST(ItemMapFile, aScriptAsksForFramesByTheirNumber) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path map = folder.path() / "map.txt", ask = folder.path() / "map.txt.ask";
+    EXPECT_EQ(askedFrame(map), 0);
+    std::ofstream(ask) << "123\n";
+    EXPECT_EQ(askedFrame(map), 123);
+    for (const char* const notANumber : {"", "soon", "99999999999999999999999"}) {
+        std::ofstream(ask) << notANumber;
+        EXPECT_EQ(askedFrame(map), 0) << notANumber;
+    }
+}
+
 }  // namespace
 }  // namespace worldy

@@ -155,6 +155,19 @@ TEST_F(RulerTest, keepsItsEndsOverAnotherPlanet) {
     EXPECT_TRUE(ruler_.last);
 }
 
+TEST_F(RulerTest, itsPlacesAreKeptForTheNextStart) {
+    const glm::dvec3 raisedM = 1.01 * b_;
+    placeRulerEnd(ruler_, a_);
+    EXPECT_EQ(rulerPlaces(ruler_, 100'000).size(), 1u);
+    placeRulerEnd(ruler_, raisedM);
+    const std::vector<planet::CameraPose> places = rulerPlaces(ruler_, 100'000);
+    Ruler next;
+    setRulerPlaces(next, places, 100'000);
+    ASSERT_EQ(next.ends.size(), 2u);
+    EXPECT_LT(glm::distance(next.ends[0], a_), 1e-4);
+    EXPECT_LT(glm::distance(next.ends[1], raisedM), 1e-4);
+}
+
 // A camera at the centre of the world looks along -z; a point 1000 m ahead and 10 m right of the axis.
 TEST(RulerEndInPicture, isWhereThePictureShowsIt) {
     planet::View view;

@@ -28,8 +28,15 @@ protected:
 };
 
 TEST_F(SessionFile, isReadAsItWasWritten) {
-    const LastSession session{"/a \"b\"\\c/ü.tif", planet::CameraPose{46.25, -6.5, 6000.125, 180, -10.5},
-                              "/t.lodtrace"};
+    LastSession session{"/a \"b\"\\c/ü.tif",
+                        planet::CameraPose{46.25, -6.5, 6000.125, 180, -10.5},
+                        "/t.lodtrace",
+                        {{46.5, -7, 410.25}, {46.75, -7.125, -12}},
+                        LastComparison{}};
+    session.compare->file = "/b's.chk";
+    session.compare->origin = "preset \"p\"";
+    session.compare->settings.lod.tauPx = 3.5;
+    session.compare->settings.overlay.colourBy = ColourBy::Age;
     const planet::Result<LastSession> read = loaded(lastSessionText(session));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->file, session.file);
@@ -38,6 +45,13 @@ TEST_F(SessionFile, isReadAsItWasWritten) {
     EXPECT_EQ(read->camera->latitudeDeg, 46.25);
     EXPECT_EQ(read->camera->altitudeM, 6000.125);
     EXPECT_EQ(read->camera->pitchDeg, -10.5);
+    ASSERT_EQ(read->ruler.size(), 2u);
+    EXPECT_EQ(read->ruler[0].altitudeM, 410.25);
+    EXPECT_EQ(read->ruler[1].longitudeDeg, -7.125);
+    ASSERT_TRUE(read->compare);
+    EXPECT_EQ(read->compare->file, session.compare->file);
+    EXPECT_EQ(read->compare->origin, session.compare->origin);
+    EXPECT_TRUE(read->compare->settings == session.compare->settings);
     EXPECT_EQ(lastSessionText(*read), lastSessionText(session));
 }
 
@@ -53,10 +67,19 @@ TEST_F(SessionFile, isEmptyBeforeTheFirstSession) {
 TEST_F(SessionFile, isRefusedWithItsLineIfItIsWrong) {
     EXPECT_THAT(problemOf("file = 'a.tif'\nfiles = 'b.tif'\n"),
                 AllOf(HasSubstr("session.toml: line 2"),
-                      HasSubstr("files is unknown; expected file, camera or trace")));
+                      HasSubstr("files is unknown; expected file, camera, trace, ruler or compare")));
     EXPECT_THAT(problemOf("\nfile = 3\n"), HasSubstr("session.toml: line 2"));
     EXPECT_THAT(problemOf("camera = '1,2'\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("camera")));
     EXPECT_THAT(problemOf("camera = '1e999,0,0'\n"), HasSubstr("session.toml: line 1"));
+    EXPECT_THAT(problemOf("\nruler = '1,2'"), AllOf(HasSubstr("line 2"), HasSubstr("at most two places")));
+    EXPECT_THAT(problemOf("ruler = ['1,2', '3,4', '5,6']"), HasSubstr("at most two places"));
+    EXPECT_THAT(problemOf("ruler = ['1,2,3', '91,2,3']"), AllOf(HasSubstr("line 1"), HasSubstr("ruler")));
+    EXPECT_THAT(problemOf("compare = 3"), HasSubstr("expected a table"));
+    EXPECT_THAT(problemOf("[compare]\nfiles = 'a'"), HasSubstr("compare.files is unknown"));
+    EXPECT_THAT(problemOf("[compare]\nsettings = ['lod.tau=3']"),
+                AllOf(HasSubstr("line 2"), HasSubstr("lod.tau")));
+    EXPECT_THAT(problemOf("[compare]\nsettings = ['lod.tau_px=1e9']"), HasSubstr("lod.tau_px"));
+    EXPECT_THAT(problemOf("[compare]\nsettings = 'lod.tau_px=3'"), HasSubstr("expected a list"));
     EXPECT_THAT(problemOf("file = 'a"), HasSubstr("session.toml"));
     EXPECT_THAT(problemOf(std::string(1 << 16, '[')), HasSubstr("session.toml"));
 }

@@ -17,6 +17,12 @@ TEST(FramePace, restsLongOnceThePlotsOfStillFramesHaveRunOut) {
     EXPECT_EQ(pace.restS(111.5), longestRestS);
 }
 
+TEST(FramePace, restsBetweenTheFramesOfAScriptUnlessThePictureMoves) {
+    EXPECT_EQ(scriptedRestS(Activity::Motion), 0);
+    EXPECT_GT(scriptedRestS(Activity::None), 0);
+    EXPECT_LT(scriptedRestS(Activity::None), 0.2) << "a change without an event is seen soon";
+}
+
 TEST(FramePace, inputAfterARestBringsFullSpeed) {
     FramePace pace;
     ASSERT_EQ(pace.restS(1000), longestRestS);

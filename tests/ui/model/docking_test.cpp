@@ -241,8 +241,60 @@ TEST(DropTarget, opensAnEmptyDockAtItsEdgeAndFloatsElsewhere) {
     EXPECT_EQ(targetAt({1275, 300}, PanelId::Lod, workspace).dock, Dock::Right);
     EXPECT_EQ(targetAt({700, 770}, PanelId::Lod, workspace).dock, Dock::Bottom);
     EXPECT_FALSE(targetAt({700, 300}, PanelId::Lod, workspace).dock);
-    EXPECT_FALSE(targetAt({-4000, 300}, PanelId::Lod, workspace).dock);
     EXPECT_FALSE(targetAt({700, 5}, PanelId::Lod, workspace).dock);  // over the menu bar
+}
+
+TEST(DropTarget, isTheSecondWindowOutsideOfTheWindows) {
+    Workspace workspace = holding(Dock::Left, {PanelId::Lod, PanelId::Chunk});
+    for (const Point outside : {Point{-4000, 300}, Point{1281, 300}, Point{600, -1}, Point{600, 801}})
+        EXPECT_EQ(targetAt(outside, PanelId::Lod, workspace).dock, Dock::Second);
+    EXPECT_EQ(dropText({Dock::Second, panelCount}, PanelId::Lod, workspace), "Second window");
+    dockPanel(PanelId::Log, Dock::Second, 0, workspace);
+    EXPECT_EQ(dropText({Dock::Second, panelCount}, PanelId::Lod, workspace), "Second window, after Log");
+}
+
+// The second window stands 100 pixels right of a main window of 1280 x 800, and 50 lower.
+TEST(DropTarget, aPointerIsOverTheWindowThatIsThereWhereverItsButtonWentDown) {
+    Workspace workspace = holding(Dock::Second, {PanelId::Lod});
+    Layout layout = layoutIn(1280, 800, workspace);
+    const auto over = [&](Point pointer) {
+        const Point at = pointerOverWindows(pointer, layout);
+        return std::pair(at.x, at.y);
+    };
+    EXPECT_EQ(over({1400, 60}), std::pair(1400.0f, 60.0f)) << "there is no second window";
+    layout.docks[static_cast<std::size_t>(Dock::Second)] = {secondWindowX, 0, 500, 600};
+    layout.secondLeft = 1380;
+    layout.secondTop = 50;
+    EXPECT_EQ(over({700, 300}), std::pair(700.0f, 300.0f));
+    EXPECT_EQ(over({1400, 60}), std::pair(secondWindowX + 20, 10.0f));
+    EXPECT_EQ(over({1400, 49}), std::pair(1400.0f, 49.0f)) << "above the second window";
+    EXPECT_EQ(over({secondWindowX + 20, 10}), std::pair(secondWindowX + 20, 10.0f));
+    EXPECT_EQ(over({secondWindowX - 680, 250}), std::pair(700.0f, 300.0f)) << "back over the main window";
+    // Over both, it is in the window that holds the button.
+    layout.secondLeft = 1000;
+    EXPECT_EQ(over({1100, 60}), std::pair(1100.0f, 60.0f));
+    EXPECT_EQ(over({secondWindowX + 100, 10}), std::pair(secondWindowX + 100, 10.0f));
+}
+
+TEST(Docking, theSecondWindowIsNeitherMaximisedNorCovered) {
+    Workspace workspace = holding(Dock::Left, {PanelId::Lod});
+    dockPanel(PanelId::Log, Dock::Second, 0, workspace);
+    toggleMaximised(Dock::Second, workspace);
+    EXPECT_EQ(maximisedDock(workspace), std::nullopt);
+    toggleMaximised(Dock::Left, workspace);
+    EXPECT_TRUE(isVisible(PanelId::Log, workspace));
+    showPanel(PanelId::Log, workspace);
+    EXPECT_EQ(maximisedDock(workspace), Dock::Left) << "nothing has to make room";
+}
+
+TEST(Docking, thePanelsOfAClosedSecondWindowReturnToTheirOwnDocks) {
+    Workspace workspace = holding(Dock::Second, {PanelId::Lod, PanelId::Log, PanelId::Chunk});
+    placeOf(PanelId::Chunk, workspace).shown = false;
+    leaveSecondWindow(workspace);
+    EXPECT_THAT(panelsIn(Dock::Second, workspace), IsEmpty());
+    EXPECT_THAT(panelsIn(Dock::Right, workspace), ElementsAre(PanelId::Lod));
+    EXPECT_THAT(panelsIn(Dock::Bottom, workspace), ElementsAre(PanelId::Log));
+    EXPECT_EQ(placeOf(PanelId::Chunk, workspace).dock, Dock::Left) << "it would open the window again";
 }
 
 TEST(DropTarget, overAMaximisedDockOnlyItsTabsCount) {
