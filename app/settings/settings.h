@@ -33,7 +33,8 @@ inline constexpr std::array<std::string_view, 3> featureUseNames = {"automatic",
 inline constexpr std::array<std::string_view, 3> layerPreviewNames = {"off", "heat", "mask"};
 inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
 inline constexpr std::array<std::string_view, 3> dockNames = {"left", "right", "bottom"};
-inline constexpr std::array<std::string_view, 4> maximisedDockNames = {"none", "left", "right", "bottom"};
+inline constexpr std::array<std::string_view, 5> maximisedDockNames = {"none", "left", "right", "bottom",
+                                                                       "viewport"};
 
 struct Settings {
     std::string dataSet;

@@ -125,6 +125,7 @@ std::vector<PanelId> panelsIn(Dock dock, const Workspace& workspace) {
 }
 
 std::vector<PanelId> floatingPanels(const Workspace& workspace) {
+    if (isViewportMaximised(workspace)) return {};
     return shownPanels(workspace, [](const PanelPlace& place) { return place.floats; });
 }
 
@@ -137,6 +138,7 @@ std::optional<PanelId> frontPanel(Dock dock, const Workspace& workspace) {
 
 bool isVisible(PanelId panel, const Workspace& workspace) {
     const PanelPlace& place = placeOf(panel, workspace);
+    if (isViewportMaximised(workspace)) return false;
     if (!place.shown || place.floats) return place.shown;
     const std::optional<Dock> maximised = maximisedDock(workspace);
     return frontPanel(place.dock, workspace) == panel && (!maximised || *maximised == place.dock);
@@ -145,6 +147,7 @@ bool isVisible(PanelId panel, const Workspace& workspace) {
 void showPanel(PanelId panel, Workspace& workspace) {
     PanelPlace& place = placeOf(panel, workspace);
     place.shown = true;
+    if (isViewportMaximised(workspace)) workspace.maximised = MaximisedDock::None;
     if (place.floats) return;
     workspace.inFront[static_cast<std::size_t>(place.dock)] = panel;
     const std::optional<Dock> maximised = maximisedDock(workspace);
@@ -164,6 +167,19 @@ void toggleMaximised(Dock dock, Workspace& workspace) {
         workspace.maximised = MaximisedDock::None;
     else
         workspace.maximised = static_cast<MaximisedDock>(static_cast<int>(dock) + 1);
+}
+
+void toggleAllPanels(Workspace& workspace) {
+    if (isViewportMaximised(workspace)) {
+        workspace.maximised = MaximisedDock::None;
+        return;
+    }
+    if (std::ranges::any_of(workspace.panels, &PanelPlace::shown)) {
+        workspace.maximised = MaximisedDock::Viewport;
+        return;
+    }
+    const auto first = firstPlaces();
+    for (std::size_t i = 0; i < panelCount; ++i) workspace.panels[i].shown = first[i].shown;
 }
 
 std::size_t positionIn(Dock dock, PanelId panel, const Workspace& workspace) {
@@ -190,9 +206,9 @@ void dockPanel(PanelId panel, Dock dock, std::size_t position, Workspace& worksp
 
 void floatPanel(PanelId panel, const FloatingPlace& floating, Workspace& workspace) {
     PanelPlace& place = placeOf(panel, workspace);
-    place.shown = true;
     place.floats = true;
     place.floating = floating;
+    showPanel(panel, workspace);
 }
 
 Rect floatingRect(const FloatingPlace& place, const Rect& area, float unitPx) {
