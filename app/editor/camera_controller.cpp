@@ -7,7 +7,9 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/base/text.h"
 #include "app/scene/observer.h"
+#include "app/window/steering_devices.h"
 
 namespace worldy {
 
@@ -18,6 +20,24 @@ planet::View viewOfPicture(const Camera& camera, const PlanetPicture& picture, c
     // A hidden picture has the other's size, because the LOD view continues while only the observer is shown.
     const PixelSize size = pixelSizeOf(picture.shown() ? picture.rect : other.rect, pixelRatio);
     return viewOf(camera, glm::radians(settings.fovDeg), size.width, size.height);
+}
+
+// Changes the speed and shows it.
+void setSpeed(CameraController& camera, const Scene* scene, double factor, Notices& notices) {
+    factor = std::clamp(factor, minSpeedFactor, maxSpeedFactor);
+    if (!scene || !camera.rig || camera.rig->speedFactor == factor) return;
+    camera.rig->speedFactor = factor;
+    const Camera& now = camera.rig->camera;
+    showBriefly(notices, fmt::format("Speed {:.2f} x, {}/s", factor,
+                                     distanceText(speedMS(now, groundBelow(*scene, now.eyeM), factor))));
+}
+
+CameraMotion motionOfDevices(const CameraController& camera, const WindowPreferences& preferences) {
+    CameraMotion motion;
+    if (!camera.isSteered) return motion;
+    for (const SteeringState& device : camera.devices)
+        motion = motion + motionOf(device, preferences.steering, preferences.invertSteering);
+    return motion;
 }
 
 struct CameraHandler {
@@ -36,13 +56,31 @@ struct CameraHandler {
         if (mayChange("Settings", context.replay != nullptr, notices.log))
             freezeLod(camera, command.frozen, context.popSide);
     }
-    void operator()(const ui::MoveCamera& command) const { moveTo(command.pose); }
+    void glideTo(const planet::CameraPose& pose) const {
+        if (context.scene) glideCamera(camera, cameraFromPose(pose, radiusM()), context);
+    }
+    void operator()(const ui::MoveCamera& command) const {
+        command.glides ? glideTo(command.pose) : moveTo(command.pose);
+    }
+    void operator()(const ui::LookAtPoint& command) const {
+        if (isThere()) glideCamera(camera, lookingAt(camera.rig->camera, command.pointM), context);
+    }
+    void operator()(const ui::OrbitPoint& command) const {
+        if (!isThere()) return;
+        glideCamera(camera, lookingAt(camera.rig->camera, command.pointM), context);
+        orbitPoint(*camera.rig, command.pointM, settings());
+    }
+    void operator()(const ui::SetSteering& command) const {
+        WindowPreferences& preferences = context.settings.workspace.preferences;
+        preferences.steering = command.sensitivity;
+        preferences.invertSteering = command.inverted;
+    }
     void operator()(const ui::InspectPlace& command) const {
         if (isThere()) inspect(camera, cameraFromPose(command.pose, radiusM()), command.lodView, context);
     }
     void operator()(const ui::EndInspection&) const { endInspection(camera, context); }
     void operator()(const ui::ResetCamera&) const {
-        if (context.scene) moveTo(startPose(context.settings.camera, radiusM()));
+        if (context.scene) glideTo(startPose(context.settings.camera, radiusM()));
     }
     void operator()(const ui::KeepCameraAsStart&) const {
         if (!isThere()) return;
@@ -62,7 +100,7 @@ struct CameraHandler {
             confirm(notices, fmt::format("Bookmark {} removed", command.name));
     }
     void operator()(const ui::SetSpeedFactor& command) const {
-        if (camera.rig) camera.rig->speedFactor = std::clamp(command.factor, minSpeedFactor, maxSpeedFactor);
+        setSpeed(camera, context.scene, command.factor, notices);
     }
     void operator()(const ui::StartFlight& command) const {
         if (camera.rig)
@@ -125,6 +163,16 @@ void moveCamera(CameraController& camera, const Camera& place, CameraSettings& s
     if (camera.rig) placeRig(*camera.rig, place, settings);
 }
 
+void glideCamera(CameraController& camera, const Camera& place, const CameraContext& context) {
+    CameraSettings& settings = context.settings.view.camera;
+    const bool glides =
+        context.settings.workspace.preferences.glide && !context.framesPaused && !context.replay;
+    if (camera.rig && glides)
+        glideRig(*camera.rig, place, settings);
+    else
+        moveCamera(camera, place, settings);
+}
+
 void meetPlanet(CameraController& camera, double radiusM) {
     camera.beforeInspection.reset();
     if (radiusM != camera.radiusM) {
@@ -147,27 +195,43 @@ void placeCameras(CameraController& camera, const Scene& scene, const Viewport& 
                                             groundBelow(scene, camera.rig->camera.eyeM));
 }
 
-void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewport, CameraSettings& settings,
-                 bool replaying, double seconds, const Log& log) {
+void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewport, Settings& all,
+                 bool replaying, double seconds, Notices& notices) {
+    CameraSettings& settings = all.view.camera;
     const Surroundings around = surroundingsOf(scene);
     const KeyInput keys = readKeys();
-    camera.rig->speedFactor =
-        std::clamp(camera.rig->speedFactor * std::pow(1.5, keys.speedSteps), minSpeedFactor, maxSpeedFactor);
+    const double wheelSteps = viewport.main.pointer.speedNotches + viewport.observer.pointer.speedNotches;
+    setSpeed(camera, &scene,
+             camera.rig->speedFactor * std::pow(1.5, keys.speedSteps) * std::pow(1.2, wheelSteps), notices);
+    const CameraMotion motion = keys.held + motionOfDevices(camera, all.workspace.preferences);
     // The keys control the picture under the pointer.
     const bool observing =
         viewport.observer.shown() && (viewport.observer.pointer.over || !viewport.main.shown());
     planet::Result<void> moved;
     if (!replaying)
         moved = advanceRig(*camera.rig, around, mainView(camera, viewport, settings), viewport.main.pointer,
-                           observing ? HeldKeys() : keys.held, seconds, settings);
-    if (!moved) log->error("{}", moved.error().message);
+                           observing ? CameraMotion() : motion, seconds, settings);
+    if (!moved) notices.log->error("{}", moved.error().message);
 
     if (!viewport.observer.shown()) return;
     camera.observer->speedFactor = camera.rig->speedFactor;
     // It cannot fail, because the observer follows no flight.
     static_cast<void>(advanceRig(*camera.observer, around, observerView(camera, viewport, settings),
-                                 viewport.observer.pointer, observing ? keys.held : HeldKeys(), seconds,
+                                 viewport.observer.pointer, observing ? motion : CameraMotion(), seconds,
                                  camera.observerControls));
+}
+
+std::vector<GamepadButton> readDevices(CameraController& camera, const Window& window) {
+    const std::vector<SteeringState> before = std::exchange(camera.devices, readSteeringDevices());
+    // Without the focus, the user may be steering in another program.
+    camera.isSteered = window.isFocused();
+    return camera.isSteered ? pressedButtons(before, camera.devices) : std::vector<GamepadButton>();
+}
+
+bool hasDeviceInput(const CameraController& camera, const Window& window) {
+    const std::vector<SteeringState> now = readSteeringDevices();
+    if (!std::ranges::equal(now, camera.devices, {}, &SteeringState::name, &SteeringState::name)) return true;
+    return window.isFocused() && std::ranges::any_of(now, isUsed);
 }
 
 void followCamera(CameraController& camera, const Viewport& viewport, const CameraSettings& settings,
@@ -199,7 +263,7 @@ std::size_t observerSelection(const Scene& scene, const Viewport& viewport, cons
 }
 
 ui::CameraView cameraViewOf(const CameraController& camera, const Scene* scene,
-                            const planet::View& renderView) {
+                            const planet::View& renderView, const WindowPreferences& preferences) {
     ui::CameraView view;
     if (scene && camera.rig) {
         view = cameraViewOf(*camera.rig, groundBelow(*scene, camera.rig->camera.eyeM), camera.bookmarks.list,
@@ -210,6 +274,7 @@ ui::CameraView cameraViewOf(const CameraController& camera, const Scene* scene,
     view.renderView = renderView;
     view.lodFrozen = camera.lodFrozen;
     view.inspecting = camera.beforeInspection.has_value();
+    view.steering = {camera.devices, preferences.steering, preferences.invertSteering};
     return view;
 }
 

@@ -1,4 +1,5 @@
-// The window's cameras: the LOD camera, the observer, freezing of LOD, inspection of places, and bookmarks.
+// The window's cameras: the LOD camera, the observer, freezing of LOD, inspection of places, bookmarks, and the devices that
+// steer.
 // Main thread.
 #pragma once
 
@@ -12,6 +13,7 @@
 #include "app/editor/viewport.h"
 #include "app/measure/pop_side.h"
 #include "app/settings/settings.h"
+#include "app/window/window.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 #include "ui/model/replay_controls.h"
@@ -37,6 +39,8 @@ struct CameraController {
     std::optional<BeforeInspection> beforeInspection;
     Bookmarks bookmarks;
     std::vector<std::filesystem::path> flights;  // the flights that can be followed
+    std::vector<SteeringState> devices;          // as read in this frame
+    bool isSteered = false;                      // false: the devices belong to another window
 };
 
 // Parts of other features that camera commands use and change.
@@ -44,7 +48,8 @@ struct CameraContext {
     const Scene* scene;  // null while no planet is open
     Settings& settings;
     PopSide& popSide;
-    bool& stepOnce;              // FrameController::stepOnce
+    bool& stepOnce;  // FrameController::stepOnce
+    bool framesPaused;
     ui::ReplayControls* replay;  // null if no replay is running
 };
 
@@ -60,15 +65,23 @@ void endInspection(CameraController& camera, const CameraContext& context);
 void freezeLod(CameraController& camera, bool frozen, PopSide& popSide);
 // Moves the camera without a transition. Does nothing without a rig.
 void moveCamera(CameraController& camera, const Camera& place, CameraSettings& settings);
+// Lets the camera glide to a place, or moves it there without a transition if the user prefers that, while frames are paused
+// and during a replay. Does nothing without a rig.
+void glideCamera(CameraController& camera, const Camera& place, const CameraContext& context);
 
 // Call when another planet is shown. The cameras stay if its radius is the same.
 void meetPlanet(CameraController& camera, double radiusM);
 // Creates the cameras that are needed, also while frames are paused.
 void placeCameras(CameraController& camera, const Scene& scene, const Viewport& viewport,
                   const Settings& settings);
-// Moves the cameras by keys, pointer and flight; during a replay only the observer.
-void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewport, CameraSettings& settings,
-                 bool replaying, double seconds, const Log& log);
+// Moves the cameras by keys, pointer, devices and flight; during a replay only the observer.
+void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewport, Settings& all,
+                 bool replaying, double seconds, Notices& notices);
+
+// Reads the devices that steer. Returns the buttons that went down. Call once a frame.
+std::vector<GamepadButton> readDevices(CameraController& camera, const Window& window);
+// Returns true if a device that steers is in use, or if one has come or gone since the last frame.
+bool hasDeviceInput(const CameraController& camera, const Window& window);
 // Sets the LOD view from the camera unless it is frozen. passedS: time since pops were last measured,
 // seconds.
 void followCamera(CameraController& camera, const Viewport& viewport, const CameraSettings& settings,
@@ -86,9 +99,9 @@ bool observerChooses(const Viewport& viewport, const CameraSettings& settings);
 // frame has computed it, which is delayed while frames are paused.
 std::size_t observerSelection(const Scene& scene, const Viewport& viewport, const CameraSettings& settings);
 
-// scene: null if no planet is open. renderView: of the main picture. Valid until bookmarks or flights
+// scene: null if no planet is open. renderView: of the main picture. Valid until bookmarks, flights or devices
 // change.
 ui::CameraView cameraViewOf(const CameraController& camera, const Scene* scene,
-                            const planet::View& renderView);
+                            const planet::View& renderView, const WindowPreferences& preferences);
 
 }  // namespace worldy

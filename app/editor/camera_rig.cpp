@@ -18,28 +18,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double joinFlightS = 1.5;
+constexpr double glideS = 1;
 constexpr double lowestOrbitRad = 0.02;  // above the pivot's horizon
 constexpr double nearestOrbitM = 4;
 
-// Removes roll and keeps the view direction. For a vertical direction every right vector is level.
-Camera levelled(Camera camera) {
-    camera.back = glm::normalize(camera.back);
-    const glm::dvec3 up = glm::normalize(camera.eyeM);
-    glm::dvec3 right = glm::cross(up, camera.back);
-    if (glm::length(right) < 1e-9) right = camera.right - glm::dot(camera.right, camera.back) * camera.back;
-    camera.right = glm::normalize(glm::dot(right, camera.right) < 0 ? -right : right);
-    return camera;
-}
-
-bool touched(const PointerInput& pointer, const HeldKeys& keys) {
-    const bool moved =
-        pointer.dragPx != glm::dvec2(0, 0) || pointer.lookPx != glm::dvec2(0, 0) || pointer.wheelNotches != 0;
-    return moved || keys.forward != 0 || keys.right != 0 || keys.up != 0 || keys.lookRight != 0 ||
-           keys.lookUp != 0;
+bool touched(const PointerInput& pointer, const CameraMotion& motion) {
+    return pointer.dragPx != glm::dvec2(0, 0) || pointer.lookPx != glm::dvec2(0, 0) || pointer.grabs ||
+           pointer.wheelNotches != 0 || motion != CameraMotion();
 }
 
 void flyFrame(CameraRig& rig, const Surroundings& around, const planet::View& view,
-              const PointerInput& pointer, const HeldKeys& keys, double seconds) {
+              const PointerInput& pointer, CameraMotion motion, double seconds) {
     const Ground ground = around.groundBelow(rig.camera.eyeM);
     Camera camera = drag(rig.camera, ground, view, pointer.dragPx);
     const double radAPx = 1 / planet::screenScalePx(view);
@@ -47,7 +36,11 @@ void flyFrame(CameraRig& rig, const Surroundings& around, const planet::View& vi
     if (pointer.wheelNotches != 0) {
         camera = approach(camera, ground, rayThrough(view, pointer.positionPx), pointer.wheelNotches);
     }
-    camera = moveByKeys(camera, ground, keys, rig.speedFactor, seconds);
+    // A narrow field of view magnifies turns.
+    const double turn = std::min(view.horizontalFovRad / glm::radians(60.0), 1.0);
+    motion.lookRight *= turn;
+    motion.lookUp *= turn;
+    camera = steered(camera, ground, motion, rig.speedFactor, seconds);
     rig.camera = keepInRange(camera, around.groundBelow(camera.eyeM));
 }
 
@@ -83,7 +76,7 @@ Camera keepOrbitInRange(const Camera& camera, const glm::dvec3& pivotM, const Su
 }
 
 void orbitFrame(CameraRig& rig, const Surroundings& around, const planet::View& view,
-                const PointerInput& pointer, const HeldKeys& keys, double seconds) {
+                const PointerInput& pointer, const CameraMotion& motion, double seconds) {
     if (!rig.pivotM) rig.pivotM = pivotFor(rig.camera, around);
     if (pointer.lookPx != glm::dvec2(0, 0)) {
         const Ground ground = around.groundBelow(rig.camera.eyeM);
@@ -93,13 +86,46 @@ void orbitFrame(CameraRig& rig, const Surroundings& around, const planet::View& 
     // Dragging over the viewport's height turns by 180 degrees.
     const double radAPx = glm::radians(180.0) / std::max(view.heightPx, 1);
     const double keyRad = glm::radians(60.0) * seconds;
-    const double turnRad = -pointer.dragPx.x * radAPx + (keys.right + keys.lookRight) * keyRad;
-    const double upRad = pointer.dragPx.y * radAPx + (keys.up + keys.lookUp) * keyRad;
+    const double turnRad = -pointer.dragPx.x * radAPx + (motion.right + motion.lookRight) * keyRad;
+    const double upRad = pointer.dragPx.y * radAPx + (motion.up + motion.lookUp) * keyRad;
     Camera camera = rig.camera;
     if (turnRad != 0 || upRad != 0) camera = orbit(camera, *rig.pivotM, turnRad, upRad);
-    const double nearer = pointer.wheelNotches + 6 * keys.forward * rig.speedFactor * seconds;
+    const double nearer = pointer.wheelNotches + 6 * motion.forward * rig.speedFactor * seconds;
     if (nearer != 0) camera = dolly(camera, *rig.pivotM, std::pow(0.85, nearer));
     rig.camera = keepOrbitInRange(camera, *rig.pivotM, around);
+}
+
+// Orbits the point under the pointer, or moves towards it. The point stays where it is in the picture.
+void grabFrame(CameraRig& rig, const Surroundings& around, const planet::View& view,
+               const PointerInput& pointer) {
+    if (!rig.grab) {
+        const auto hit = around.hit(rig.camera.eyeM, rayThrough(view, pointer.positionPx));
+        const glm::dvec3 pointM = hit ? *hit : pivotFor(rig.camera, around);
+        rig.grab = GrabbedPoint{pointM, directionOf(rig.camera, pointM)};
+    }
+    rig.pivotM.reset();  // a later orbit turns about the middle of the new picture
+    const glm::dvec2 share =
+        (pointer.orbitPx + pointer.dollyPx) / static_cast<double>(std::max(view.heightPx, 1));
+    if (share == glm::dvec2(0, 0)) return;
+    const GrabbedPoint& grab = *rig.grab;
+    // The viewport's height turns by 180 degrees, or moves as many notches of the wheel as a zoom needs.
+    constexpr double notches = 20;
+    Camera camera =
+        pointer.orbitPx != glm::dvec2(0, 0)
+            ? orbit(rig.camera, grab.pointM, glm::radians(-180.0) * share.x, glm::radians(180.0) * share.y)
+            : dolly(rig.camera, grab.pointM, std::pow(0.85, notches * (share.x - share.y)));
+    camera = keepInRange(camera, around.groundBelow(camera.eyeM));
+    rig.camera = holding(camera, grab.pointM, grab.direction);
+}
+
+void glideFrame(CameraRig& rig, const Surroundings& around, double seconds) {
+    Glide& glide = *rig.glide;
+    rig.jumped = true;
+    glide.share = std::min(glide.share + seconds / glideS, 1.0);
+    const double radiusM = around.groundBelow(rig.camera.eyeM).radiusM;
+    const Camera camera = glideAt(glide.from, glide.to, glide.share, radiusM);
+    rig.camera = keepInRange(camera, around.groundBelow(camera.eyeM));
+    if (glide.share >= 1) rig.glide.reset();
 }
 
 void followFrame(CameraRig& rig, const Surroundings& around, double seconds) {
@@ -152,10 +178,6 @@ planet::Result<void> changeMode(CameraRig& rig, CameraSettings& settings) {
     return joined;
 }
 
-double headingRadOf(const Camera& camera, const glm::dvec3& north, const glm::dvec3& east) {
-    return std::atan2(-glm::dot(camera.right, north), glm::dot(camera.right, east));
-}
-
 }  // namespace
 
 Surroundings surroundingsOf(const Scene& scene) {
@@ -184,46 +206,29 @@ Camera orbit(const Camera& camera, const glm::dvec3& pivotM, double aroundRad, d
     return levelled({pivotM + turned(offset), turned(camera.right), turned(camera.back)});
 }
 
-Camera blend(const Camera& from, const Camera& to, double share) {
-    const glm::dvec3 a = glm::normalize(from.eyeM);
-    const glm::dvec3 b = glm::normalize(to.eyeM);
-    glm::dvec3 axis = glm::cross(a, b);
-    const double angleRad = std::atan2(glm::length(axis), glm::dot(a, b));
-    // Antipodal places have no unique shortest path, so any axis is used.
-    if (glm::length(axis) < 1e-12) axis = from.right;
-    axis = glm::normalize(axis);
-    const glm::dvec3 up = rotated(a, axis, share * angleRad);
-
-    // Heading and pitch are interpolated in frames that move along the path; north points along it.
-    const auto pitchRad = [](const Camera& camera, const glm::dvec3& vertical) {
-        return std::asin(std::clamp(-glm::dot(camera.back, vertical), -1.0, 1.0));
-    };
-    const double fromHeading = headingRadOf(from, glm::cross(axis, a), -axis);
-    const double toHeading = headingRadOf(to, glm::cross(axis, b), -axis);
-    const double heading = fromHeading + share * std::remainder(toHeading - fromHeading, glm::radians(360.0));
-    const double pitch = (1 - share) * pitchRad(from, a) + share * pitchRad(to, b);
-    const glm::dvec3 north = glm::cross(axis, up);
-    const glm::dvec3 east = -axis;
-    const glm::dvec3 level = std::cos(heading) * north + std::sin(heading) * east;
-    Camera camera;
-    camera.eyeM = std::pow(glm::length(from.eyeM), 1 - share) * std::pow(glm::length(to.eyeM), share) * up;
-    camera.right = std::cos(heading) * east - std::sin(heading) * north;
-    camera.back = -(std::cos(pitch) * level + std::sin(pitch) * up);
-    return camera;
-}
-
 planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, const planet::View& view,
-                                const PointerInput& pointer, const HeldKeys& keys, double seconds,
+                                const PointerInput& pointer, const CameraMotion& motion, double seconds,
                                 CameraSettings& settings) {
-    if (rig.mode == CameraMode::FollowFlight && settings.mode == rig.mode && touched(pointer, keys))
+    const bool isTouched = touched(pointer, motion);
+    if (isTouched || settings.mode != rig.mode) rig.glide.reset();
+    if (rig.mode == CameraMode::FollowFlight && settings.mode == rig.mode && isTouched)
         settings.mode = CameraMode::Fly;
     const planet::Result<void> changed = changeMode(rig, settings);
+    if (rig.glide) {
+        glideFrame(rig, around, seconds);
+        return changed;
+    }
+    if (pointer.grabs) {
+        grabFrame(rig, around, view, pointer);
+        return changed;
+    }
+    rig.grab.reset();
     switch (rig.mode) {
         case CameraMode::Fly:
-            flyFrame(rig, around, view, pointer, keys, seconds);
+            flyFrame(rig, around, view, pointer, motion, seconds);
             break;
         case CameraMode::Orbit:
-            orbitFrame(rig, around, view, pointer, keys, seconds);
+            orbitFrame(rig, around, view, pointer, motion, seconds);
             break;
         case CameraMode::FollowFlight:
             followFrame(rig, around, seconds);
@@ -236,7 +241,20 @@ void placeRig(CameraRig& rig, const Camera& camera, CameraSettings& settings) {
     rig.camera = camera;
     rig.jumped = true;
     rig.pivotM.reset();
+    rig.glide.reset();
     if (settings.mode == CameraMode::FollowFlight) settings.mode = CameraMode::Fly;
+}
+
+void glideRig(CameraRig& rig, const Camera& camera, CameraSettings& settings) {
+    if (settings.mode == CameraMode::FollowFlight) settings.mode = CameraMode::Fly;
+    rig.mode = settings.mode;  // this change of mode does not end the glide
+    rig.pivotM.reset();
+    rig.glide = Glide{rig.camera, camera, 0};
+}
+
+void orbitPoint(CameraRig& rig, const glm::dvec3& pointM, CameraSettings& settings) {
+    rig.mode = settings.mode = CameraMode::Orbit;
+    rig.pivotM = pointM;
 }
 
 planet::Result<void> startFlight(CameraRig& rig, const fs::path& file, CameraSettings& settings) {
@@ -245,6 +263,7 @@ planet::Result<void> startFlight(CameraRig& rig, const fs::path& file, CameraSet
     rig.flight = FollowedFlight{file, std::move(*path), 0, false, rig.camera, 0};
     rig.mode = CameraMode::FollowFlight;
     rig.pivotM.reset();
+    rig.glide.reset();
     settings.mode = CameraMode::FollowFlight;
     settings.flight = file.string();
     return {};

@@ -1,5 +1,6 @@
-// The camera's modes: flying, orbiting a point of the ground, and following a recorded flight. Mode changes
-// never make the picture jump. No GL and no clock; one thread.
+// The camera's modes: flying, orbiting a point of the ground, and following a recorded flight. In each mode the camera can
+// glide to a place, and be turned about a point that the pointer holds. Mode changes never make the picture jump. No GL and
+// no clock; one thread.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "app/flight/flight_path.h"
 #include "app/scene/camera_control.h"
+#include "app/scene/camera_paths.h"
 #include "app/scene/scene.h"
 #include "app/window/input.h"
 #include "planet/base/result.h"
@@ -34,25 +36,47 @@ struct FollowedFlight {
     double joinedShare = 0;  // progress of the transition, [0, 1]
 };
 
+// A glide to a place.
+struct Glide {
+    Camera from;
+    Camera to;
+    double share = 0;  // of its time that has passed, [0, 1)
+};
+
+// The point of the ground that the pointer holds while it orbits it.
+struct GrabbedPoint {
+    glm::dvec3 pointM{0, 0, 0};
+    glm::dvec3 direction{0, 0, -1};  // where it stays in the picture, as holding() takes it
+};
+
 struct CameraRig {
     Camera camera;
     double speedFactor = 1;                  // [minSpeedFactor, maxSpeedFactor]
     CameraMode mode = CameraMode::Fly;       // of the last frame
     std::optional<glm::dvec3> pivotM{};      // Orbit: on the ground; none: found in the next frame
     std::optional<FollowedFlight> flight{};  // kept while another mode is used
-    // True after a jump since takeJump(), and during the transition to a flight.
+    std::optional<Glide> glide{};            // none: the camera does not glide
+    std::optional<GrabbedPoint> grab{};      // none: the pointer holds no point
+    // True after a jump since takeJump(), during a glide, and during the transition to a flight.
     bool jumped = false;
 };
 
-// Runs one frame in the mode of the settings. Input from the user ends following a flight: settings.mode
+// Runs one frame in the mode of the settings. Input from the user ends a glide, and following a flight: settings.mode
 // becomes Fly. It also becomes Fly if the flight cannot be read; the Error names the flight.
 planet::Result<void> advanceRig(CameraRig& rig, const Surroundings& around, const planet::View& view,
-                                const PointerInput& pointer, const HeldKeys& keys, double seconds,
+                                const PointerInput& pointer, const CameraMotion& motion, double seconds,
                                 CameraSettings& settings);
 
 // Moves the camera without a transition. Leaves a flight; an orbit continues around the new middle of the
 // picture.
 void placeRig(CameraRig& rig, const Camera& camera, CameraSettings& settings);
+
+// Lets the camera glide to a place in about a second. Leaves a flight; an orbit continues around the new middle of the
+// picture.
+void glideRig(CameraRig& rig, const Camera& camera, CameraSettings& settings);
+
+// Orbits a point from now on; the camera stays. The point need not be in the middle of the picture.
+void orbitPoint(CameraRig& rig, const glm::dvec3& pointM, CameraSettings& settings);
 
 bool takeJump(CameraRig& rig);
 
@@ -72,8 +96,5 @@ ui::CameraView cameraViewOf(const CameraRig& rig, const Ground& ground,
 // Rotates the camera around a point: around its vertical, and up towards it, radians. The camera stays
 // between the point's horizon and its zenith.
 Camera orbit(const Camera& camera, const glm::dvec3& pivotM, double aroundRad, double upRad);
-
-// Interpolates between two cameras, over the ground. share 0: from; 1: to.
-Camera blend(const Camera& from, const Camera& to, double share);
 
 }  // namespace worldy

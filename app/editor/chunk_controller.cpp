@@ -32,12 +32,12 @@ Camera cameraAbove(const planet::ChunkId& id, const planet::ChunkTree& tree) {
 }  // namespace
 
 void execute(ChunkController& chunks, const ui::ChunkCommand& command, const Scene* scene,
-             CameraController& camera, CameraSettings& settings) {
+             CameraController& camera, const CameraContext& context) {
     std::visit(Overloaded{
                    [&](const ui::HoverChunk& hover) { chunks.focus.hovered = hover.id; },
                    [&](const ui::SelectChunk& select) { chunks.focus.selected = select.id; },
                    [&](const ui::LookAtChunk& look) {
-                       if (scene) moveCamera(camera, cameraAbove(look.id, scene->planet->tree()), settings);
+                       if (scene) glideCamera(camera, cameraAbove(look.id, scene->planet->tree()), context);
                    },
                },
                command);

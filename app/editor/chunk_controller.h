@@ -17,7 +17,7 @@ struct ChunkController {
 
 // scene: null if no planet is open.
 void execute(ChunkController& chunks, const ui::ChunkCommand& command, const Scene* scene,
-             CameraController& camera, CameraSettings& settings);
+             CameraController& camera, const CameraContext& context);
 
 struct PickSettings {
     std::size_t selection = 0;     // index of the selection that the picture shows

@@ -1,10 +1,13 @@
 #include "app/editor/editor.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cfloat>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "app/base/process_memory.h"
@@ -55,7 +58,11 @@ Editor::Editor(const Settings& settings, const Log& log)
 }
 
 CameraContext Editor::cameraContext(const Scene* scene) {
-    return {scene, settings_.settings, instruments_.pops.side, frames_.stepOnce,
+    return {scene,
+            settings_.settings,
+            instruments_.pops.side,
+            frames_.stepOnce,
+            frames_.paused,
             recording_.replay ? &recording_.replay->controls : nullptr};
 }
 
@@ -73,20 +80,33 @@ void Editor::endFlights(Session& session) {
     stopRecording(recording_, scene ? scene->planet.get() : nullptr, notices_.log);
 }
 
+int Editor::frameLimit() const {
+    return frames_.fullSpeed ? 0 : settings_.settings.workspace.preferences.frameLimit;
+}
+
 void Editor::rest(const Window& window, const Session& session) {
+    restWhileStill(window, session);
+    const double limitS = frames_.pace.limitS(frames_.clock.elapsedS(), frameLimit());
+    // Things move on during this wait, so it is part of the frame's time.
+    if (limitS > 0) std::this_thread::sleep_for(std::chrono::duration<double>(limitS));
+}
+
+void Editor::restWhileStill(const Window& window, const Session& session) {
     frames_.restedS = 0;
     FramePace& pace = frames_.pace;
     pace.noteFrame(frames_.activity.kind, frames_.timeS);
-    if (window.waitForInput(0)) pace.noteInput(frames_.timeS);
-    if (!settings_.settings.workspace.preferences.idle) return;
+    if (window.waitForInput(0) || hasDeviceInput(camera_, window)) pace.noteInput(frames_.timeS);
+    if (!settings_.settings.workspace.preferences.idle || frames_.fullSpeed) return;
     // A script asks for the frames that it waits for, so that the processor is free for it between them.
     const bool isScripted = !window_.itemMapFile.empty();
     const auto frameIsAsked = [&] { return isScripted && frames_.frame < askedFrame(window_.itemMapFile); };
     const Stopwatch watch;
     const double restS = isScripted ? scriptedRestS(frames_.activity.kind) : pace.restS(frames_.timeS);
-    const double lookS = isScripted ? 0.005 : 0.25;  // at what no event announces
+    // At what no event announces. Devices that steer must be read often.
+    const double lookS = isScripted ? 0.005 : camera_.devices.empty() ? 0.25 : 0.02;
     while (watch.elapsedS() < restS && !window.closing() && !shadersHaveChanged(session) && !frameIsAsked()) {
-        if (!window.waitForInput(std::min(restS - watch.elapsedS(), lookS))) continue;
+        const bool hasInput = window.waitForInput(std::min(restS - watch.elapsedS(), lookS));
+        if (!hasInput && !hasDeviceInput(camera_, window)) continue;
         pace.noteInput(frames_.timeS + watch.elapsedS());
         break;
     }
@@ -99,13 +119,14 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     // Nothing moved while the window rested, and no frame was drawn.
     const double movedS = std::max(secondsSinceLast - frames_.restedS, 0.0);
     window.setTheme(workspace.preferences.theme, workspace.preferences.scale);
-    window.waitForMonitor(workspace.preferences.vsync);
+    window.waitForMonitor(workspace.preferences.vsync && !frames_.fullSpeed);
     // Frames wait for input during a bake of which at most a coarse first look is shown, because it needs the cores, and
     // during a sweep, whose frame times they would disturb.
     const OpenPlanet* const open = shownPlanet(session);
     const bool waitsForBake = !open || (open->isFirstLook && session.bake);
     followSecondWindow(window, settings_.settings, notices_);
     window.beginFrame(waitsForBake || sweep_.job ? 0.05 : 0);
+    const std::vector<GamepadButton> buttons = readDevices(camera_, window);
     const float pixelRatio = window.pixelRatio();
     const ui::Layout layout = layoutIn(window, workspace);
     layOut(viewport_, layout.viewport, settings_.settings.view.camera.observer, pixelRatio);
@@ -136,8 +157,14 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     const ui::EditorView shown = view(session);
     drawPanels(window_, {session, shown, layout, settings_.settings, viewport_, files_.dialog, notices_},
                commands);
-    obeyShortcuts(window.pressedKeys(),
-                  {shown, settings_.settings.view, workspace, window_.menu, window_.keys, commands});
+    const ui::ActionContext actions{shown,   settings_.settings.view, workspace, window_.menu, window_.keys,
+                                    commands};
+    obeyShortcuts(window.pressedKeys(), actions);
+    obeyButtons(buttons, actions);
+    // A replay keeps its own.
+    const double fovDeg = settings_.settings.view.camera.fovDeg;
+    if (fovDeg != before.camera.fovDeg && !replaying())
+        showBriefly(notices_, fmt::format("Field of view {:.1f}°", fovDeg));
     if (const auto click = std::exchange(window_.menu.mouse, std::nullopt))
         window.pressMouse({click->x, click->y}, click->button);
     if (const std::string why = std::exchange(window_.menu.refused, {}); !why.empty()) show(notices_, why);
@@ -259,8 +286,7 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
 
 void Editor::movePlanet(Scene& scene, const FrameStep& step) {
     if (step.goesOn)
-        moveCameras(camera_, scene, viewport_, settings_.settings.view.camera, replaying(), step.seconds,
-                    notices_.log);
+        moveCameras(camera_, scene, viewport_, settings_.settings, replaying(), step.seconds, notices_);
     if (replaying()) {
         replayFrame(recording_, scene, replayContext(), step.goesOn ? step.seconds : 0, notices_.log);
     } else if (step.goesOn) {
@@ -337,25 +363,25 @@ ui::EditorView Editor::view(Session& session) {
     const ViewSettings& settings = settings_.settings.view;
     const planet::View& view = viewport_.main.view;
     const Scene* scene = camera_.rig ? shownScene(session) : nullptr;
-    return {
-        .planet = scene ? scene->planet.get() : nullptr,
-        .frames = {frames_.stats, frames_.history, frames_.timeS, frames_.paused, frames_.activity.reason},
-        .log = window_.logLines,
-        .pagingPaused = paging_.paused,
-        .focus = chunks_.focus,
-        .pointedM = chunks_.pointedM,
-        .data = dataViewOf(session, files_.recentShown),
-        .bake = bakeViewOf(bakes_, session),
-        .camera = cameraViewOf(camera_, scene, view),
-        .settings = settingsViewOf(settings_),
-        .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
-        .recording = recordingViewOf(recording_, settings),
-        .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
-        .sweep = sweepViewOf(sweep_),
-        .layers = layersViewOf(layers_, scene, settings.surface.layers),
-        .sources = sourcesViewOf(bakes_.sources, session),
-        .trace = traceViewOf(files_.trace),
-        .notes = notesViewOf(files_.notes)};
+    return {.planet = scene ? scene->planet.get() : nullptr,
+            .frames = {frames_.stats, frames_.history, frames_.timeS, frames_.paused, frames_.activity.reason,
+                       frames_.fullSpeed, frameLimit()},
+            .log = window_.logLines,
+            .pagingPaused = paging_.paused,
+            .focus = chunks_.focus,
+            .pointedM = chunks_.pointedM,
+            .data = dataViewOf(session, files_.recentShown),
+            .bake = bakeViewOf(bakes_, session),
+            .camera = cameraViewOf(camera_, scene, view, settings_.settings.workspace.preferences),
+            .settings = settingsViewOf(settings_),
+            .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
+            .recording = recordingViewOf(recording_, settings),
+            .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
+            .sweep = sweepViewOf(sweep_),
+            .layers = layersViewOf(layers_, scene, settings.surface.layers),
+            .sources = sourcesViewOf(bakes_.sources, session),
+            .trace = traceViewOf(files_.trace),
+            .notes = notesViewOf(files_.notes)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {
@@ -374,7 +400,7 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
     ui::Commands next;
     std::visit(
         Overloaded{
-            [&](const ui::ChunkCommand& c) { worldy::execute(chunks_, c, scene, camera_, settings.camera); },
+            [&](const ui::ChunkCommand& c) { worldy::execute(chunks_, c, scene, camera_, camera); },
             [&](const ui::CameraCommand& c) { worldy::execute(camera_, c, camera, notices_); },
             [&](const ui::PagingCommand& c) {
                 Recorder* const recorder = recording_.recorder ? &*recording_.recorder : nullptr;

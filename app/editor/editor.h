@@ -39,7 +39,7 @@ public:
     // Returns what the next start can go on with.
     LastSession lastSession(const Session& session) const;
 
-    // Waits for input while nothing changes. Call before each frame.
+    // Waits for input while nothing changes, and as the frame limit requires. Call before each frame.
     void rest(const Window& window, const Session& session);
     // Runs one frame: input, planet, panels, and the panels' commands. secondsSinceLast: >= 0.
     void runFrame(Window& window, Session& session, double secondsSinceLast);
@@ -51,6 +51,8 @@ private:
     CameraContext cameraContext(const Scene* scene);
     ReplayContext replayContext();
     WindowContent windowContent(const Session& session) const;
+    int frameLimit() const;
+    void restWhileStill(const Window& window, const Session& session);
 
     void meetPlanet(Scene& scene);
     FrameStats runPlanet(Scene& scene, double seconds, ui::Commands& commands);

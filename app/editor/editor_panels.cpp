@@ -62,6 +62,8 @@ void viewportWindows(const ui::EditorView& view, ViewSettings& settings, Viewpor
         if (view.camera.inspecting) ui::inspectionNotice(view, viewport.main.rect, commands);
     }
     pictureWindow("observer", viewport.observer, pixelRatio, [] {});
+    settings.camera.fovDeg = narrowedFovDeg(
+        settings.camera.fovDeg, viewport.main.pointer.fovNotches + viewport.observer.pointer.fovNotches);
     if (viewport.observer.shown()) {
         if (view.planet) {
             ui::observerOverlay(view, settings, viewport.observer.view, viewport.observer.rect);
@@ -114,7 +116,7 @@ void drawPanels(WindowController& window, const PanelContext& context, ui::Comma
         emptyViewport(context.session, view, middle, context.viewport, commands);
     ui::drawDocks(context.layout, view, window.panels, window.docks, workspace, settings, commands);
     // A maximised dock would hide the place.
-    if (std::any_of(commands.begin(), commands.end(), leadsToAPlace))
+    if (ui::maximisedDock(workspace) && std::any_of(commands.begin(), commands.end(), leadsToAPlace))
         workspace.maximised = MaximisedDock::None;
     ui::statusBar(view, settings, context.layout.statusBar);
     ui::helpWindows(actions);

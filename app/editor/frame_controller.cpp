@@ -16,6 +16,7 @@ void execute(FrameController& frames, const ui::FrameCommand& command) {
     std::visit(Overloaded{
                    [&](const ui::PauseFrames& pause) { frames.paused = pause.paused; },
                    [&](const ui::StepFrame&) { frames.paused = frames.stepOnce = true; },
+                   [&](const ui::DrawAtFullSpeed& draw) { frames.fullSpeed = draw.on; },
                },
                command);
 }

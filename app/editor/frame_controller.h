@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/base/stopwatch.h"
 #include "app/scene/frame_stats.h"
 #include "app/window/frame_pace.h"
 #include "planet/sphere/view.h"
@@ -16,12 +17,14 @@ namespace worldy {
 
 struct FrameController {
     bool paused = false;
+    bool fullSpeed = false;               // neither idles nor waits, whatever the preferences say
     bool stepOnce = false;                // the next frame moves and selects although frames are paused
     std::uint64_t frame = 0;              // number of frames run
     double timeS = 0;                     // seconds since the window opened
     FrameStats stats;                     // smoothed
     std::deque<ui::FrameSample> history;  // of the last 10 s
     FramePace pace;
+    Stopwatch clock{};         // for the frame limit
     FrameActivity activity{};  // of the last frame
     double restedS = 0;        // before this frame, seconds
     planet::View lastView;     // of the main picture in the last frame

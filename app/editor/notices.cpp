@@ -12,6 +12,11 @@ void show(Notices& notices, const std::string& text) {
     notices.confirmation = {text, notices.timeS + confirmationS};
 }
 
+void showBriefly(Notices& notices, const std::string& text) {
+    constexpr double brieflyS = 1.5;
+    notices.confirmation = {text, notices.timeS + brieflyS};
+}
+
 void confirm(Notices& notices, const std::string& text) {
     confirm(notices, text, text);
 }

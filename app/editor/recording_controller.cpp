@@ -373,15 +373,17 @@ void RecordingHandler::operator()(const ui::StartReplay& command) const {
     const bool wasRecording = controller.recorder || controller.unwritten;
     stopRecording(controller, scene->planet.get(), notices.log);
     if (wasRecording) tellSaved(controller, notices);
-    endInspection(camera, {scene, context.settings, context.instruments.pops.side, context.frames.stepOnce,
-                           controller.replay ? &controller.replay->controls : nullptr});
+    endInspection(camera,
+                  {scene, context.settings, context.instruments.pops.side, context.frames.stepOnce,
+                   context.frames.paused, controller.replay ? &controller.replay->controls : nullptr});
     endReplay(controller, scene, context);
     const BeforeReplay before{context.settings.view, camera.rig->camera, context.paging.paused,
                               camera.lodView, camera.lodFrozen};
     const Result<void> started = startReplay(controller, command.file, *scene, before);
-    if (started)
+    if (started) {
         camera.lodFrozen = false;
-    else
+        camera.rig->glide.reset();  // it would go on after the replay
+    } else
         tellCannotOpen(notices, command.file, started.error());
     forgetChanges(context);
     context.frames.stepOnce = true;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "ui/shell/gamepad_actions.h"
+
 namespace worldy {
 
 namespace {
@@ -25,16 +27,21 @@ bool worksNow(const ui::Action& action, const ui::MenuState& menu) {
     return menu.palette.isOpen && action.id == "close";
 }
 
+void carryOut(const ui::Action& action, const ui::ActionContext& context) {
+    const std::string why = ui::whyNot(action, context);
+    if (why.empty())
+        action.act(context);
+    else
+        context.menu.refused = fmt::format("{}: {}", action.name, why);
+}
+
 void obey(const KeyPress& press, const ui::ActionContext& context) {
     const KeyChord chord = pressedChord(press.key, press.modifiers);
     const std::span<const ui::Action> all = ui::actions();
     for (std::size_t i = 0; i < all.size(); ++i) {
         const KeyChords& keys = context.keys[i];
         if (std::ranges::find(keys, chord) == keys.end() || !worksNow(all[i], context.menu)) continue;
-        const std::string why = ui::whyNot(all[i], context);
-        if (why.empty()) return all[i].act(context);
-        context.menu.refused = fmt::format("{}: {}", all[i].name, why);
-        return;
+        return carryOut(all[i], context);
     }
 }
 
@@ -44,6 +51,13 @@ void obeyShortcuts(std::span<const KeyPress> pressed, const ui::ActionContext& c
     for (const KeyPress& press : pressed) obey(press, context);
     context.menu.popupWasOpen =
         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+void obeyButtons(std::span<const GamepadButton> pressed, const ui::ActionContext& context) {
+    for (const GamepadButton button : pressed) {
+        const ui::Action* const action = ui::actionOf(button);
+        if (action && worksNow(*action, context.menu)) carryOut(*action, context);
+    }
 }
 
 }  // namespace worldy

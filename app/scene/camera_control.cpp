@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "app/settings/settings_schema.h"
+
 namespace worldy {
 
 namespace {
@@ -188,13 +190,28 @@ double speedMS(const Camera& camera, const Ground& ground, double speedFactor) {
     return speedFactor * naturalMS;
 }
 
-Camera moveByKeys(const Camera& camera, const Ground& ground, const HeldKeys& keys, double speedFactor,
-                  double seconds) {
+CameraMotion operator+(const CameraMotion& a, const CameraMotion& b) {
+    return {a.forward + b.forward, a.right + b.right, a.up + b.up, a.lookRight + b.lookRight,
+            a.lookUp + b.lookUp};
+}
+
+CameraMotion scaled(const CameraMotion& motion, double factor) {
+    return {factor * motion.forward, factor * motion.right, factor * motion.up, factor * motion.lookRight,
+            factor * motion.lookUp};
+}
+
+double narrowedFovDeg(double fovDeg, double notches) {
+    const NumberRange& range = rangeOf("view.fov_deg");
+    return std::clamp(fovDeg * std::pow(1.1, -notches), range.min, range.max);
+}
+
+Camera steered(const Camera& camera, const Ground& ground, const CameraMotion& motion, double speedFactor,
+               double seconds) {
     const double turnRad = glm::radians(60.0) * seconds;
     const double stepM = speedMS(camera, ground, speedFactor) * seconds;
-    Camera moved = look(camera, keys.lookRight * turnRad, keys.lookUp * turnRad);
-    moved = fly(moved, ground, keys.forward * stepM, keys.right * stepM);
-    return climb(moved, keys.up * stepM);
+    Camera moved = look(camera, motion.lookRight * turnRad, motion.lookUp * turnRad);
+    moved = fly(moved, ground, motion.forward * stepM, motion.right * stepM);
+    return climb(moved, motion.up * stepM);
 }
 
 }  // namespace worldy

@@ -1,4 +1,4 @@
-// Moves the camera by keys and mouse. Pure functions, any thread.
+// Moves the camera. Pure functions, any thread.
 //
 // The camera has no roll: its right vector is always level. A move over the planet rotates eye and axes
 // together about the planet's centre, so the poles are not special, and a level flight keeps its altitude.
@@ -84,15 +84,25 @@ double speedMS(const Camera& camera, const Ground& ground, double speedFactor);
 inline constexpr double minSpeedFactor = 1.0 / 64;
 inline constexpr double maxSpeedFactor = 64;
 
-// The keys held during a frame; each value is -1, 0 or 1.
-struct HeldKeys {
+// A motion of the camera, as shares of full speed: a held key gives -1 or 1, a stick any value between, times its
+// sensitivity.
+struct CameraMotion {
     double forward = 0;    // W S
     double right = 0;      // D A
     double up = 0;         // E Q
     double lookRight = 0;  // L J
     double lookUp = 0;     // I K
+
+    bool operator==(const CameraMotion&) const = default;
 };
-Camera moveByKeys(const Camera& camera, const Ground& ground, const HeldKeys& keys, double speedFactor,
-                  double seconds);
+CameraMotion operator+(const CameraMotion& a, const CameraMotion& b);
+CameraMotion scaled(const CameraMotion& motion, double factor);
+// Moves and turns. Full speed turns by 60 degrees a second.
+Camera steered(const Camera& camera, const Ground& ground, const CameraMotion& motion, double speedFactor,
+               double seconds);
+
+// Returns the field of view, in degrees, after some notches of the wheel; positive ones narrow it. Clamped to the range of
+// the setting.
+double narrowedFovDeg(double fovDeg, double notches);
 
 }  // namespace worldy

@@ -34,7 +34,8 @@ inline constexpr std::array<std::string_view, 3> layerPreviewNames = {"off", "he
 inline constexpr std::array<std::string_view, 2> themeNames = {"dark", "light"};
 inline constexpr std::array<std::string_view, dockCount> dockNames = {"left", "right", "bottom",
                                                                       "second_window"};
-inline constexpr std::array<std::string_view, 4> maximisedDockNames = {"none", "left", "right", "bottom"};
+inline constexpr std::array<std::string_view, 5> maximisedDockNames = {"none", "left", "right", "bottom",
+                                                                       "viewport"};
 
 struct Settings {
     std::string dataSet;

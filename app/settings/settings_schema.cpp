@@ -531,10 +531,29 @@ void addWindow(Fields& fields, Settings& s) {
           "Draws at most as many frames as the monitor shows. Turn it off to draw as fast as the machine "
           "can.",
           Flag{&workspace.preferences.vsync}},
+         {"window", "frame_limit", "Frame limit",
+          "Most frames drawn in a second; 0 is no limit. A limit leaves power and processor time to other "
+          "programs.",
+          Integer{&workspace.preferences.frameLimit, {0, 1000, ""}}},
          {"window", "resume", "Go on with the last session",
           "Without a file on the command line, opens what the last session showed: the planet, the camera, the "
           "trace, the comparison and the ruler.",
-          Flag{&workspace.preferences.resume}}});
+          Flag{&workspace.preferences.resume}},
+         {"window", "glide", "Glide to places",
+          "The camera glides to bookmarks, places, notes and its start in about a second. Off: it jumps "
+          "there.",
+          Flag{&workspace.preferences.glide}},
+         {"window", "steering", "Sensitivity",
+          "How fast gamepads and 3-D mice move and turn the camera. At 1, a stick at its end does as much as "
+          "a "
+          "key that is held.",
+          Number{&workspace.preferences.steering, {0.1, 5, ""}, "%.2f x", logarithmic},
+          "Steering sensitivity"},
+         {"window", "invert_steering", "Invert up and down",
+          "Pushing the right stick of a gamepad forward looks down, and tilting a 3-D mouse forward looks "
+          "up. Off: "
+          "the stick looks up, and the 3-D mouse down.",
+          Flag{&workspace.preferences.invertSteering}}});
 }
 
 // The panels' keys in the order of PanelId, like panelInfos.
@@ -590,9 +609,11 @@ void addPanels(Fields& fields, Workspace& workspace) {
             {"panels", panelInfos[i].key, texts.label, texts.help, Choice{asByte(place.dock), dockNames}});
         fields.push_back({"panels", texts.shownKey, texts.shownLabel, texts.shownHelp, Flag{&place.shown}});
     }
-    fields.push_back({"panels", "maximised", "Maximised dock",
-                      "Dock that fills the window between the menu bar and the status bar.",
-                      Choice{asByte(workspace.maximised), maximisedDockNames}});
+    fields.push_back(
+        {"panels", "maximised", "Maximised dock",
+         "Dock that fills the window between the menu bar and the status bar; viewport: all panels are "
+         "away.",
+         Choice{asByte(workspace.maximised), maximisedDockNames}});
     fields.push_back(
         {"panels", "order", "Order of the tabs",
          "Order of the tabs in all docks, as keys of panels. Panels that are not listed follow in "
@@ -653,7 +674,7 @@ void addViewSettings(Fields& fields, ViewSettings& view) {
 }
 
 // The size of the largest list, so that it is allocated once.
-constexpr std::size_t fieldCount = 124 + 2 * panelCount + dockCount;
+constexpr std::size_t fieldCount = 135 + 2 * panelCount + dockCount;
 
 }  // namespace
 

@@ -51,14 +51,19 @@ constexpr PanelOrder firstOrder() {
 }
 
 enum class Theme : std::uint8_t { Dark, Light };
-enum class MaximisedDock : std::uint8_t { None, Left, Right, Bottom };
+// Viewport: no dock and no floating panel is drawn, and the viewport has their room.
+enum class MaximisedDock : std::uint8_t { None, Left, Right, Bottom, Viewport };
 
 struct WindowPreferences {
     Theme theme = Theme::Dark;
-    double scale = 1;    // relative to the monitor's scale; Ctrl + and Ctrl -
-    bool idle = true;    // draws frames only while something changes
-    bool vsync = true;   // frames wait for the monitor
-    bool resume = true;  // a start without a file goes on with the last session
+    double scale = 1;             // relative to the monitor's scale; Ctrl + and Ctrl -
+    bool idle = true;             // draws frames only while something changes
+    bool vsync = true;            // frames wait for the monitor
+    int frameLimit = 0;           // most frames a second, [0, 1000]; 0: no limit
+    bool resume = true;           // a start without a file goes on with the last session
+    bool glide = true;            // the camera glides to places instead of jumping
+    double steering = 1;          // how fast gamepads and 3-D mice move and turn the camera, [0.1, 5]
+    bool invertSteering = false;  // a stick pushed forward looks down
 
     bool operator==(const WindowPreferences&) const = default;
 };
@@ -84,7 +89,8 @@ struct Workspace {
     PanelOrder order = firstOrder();  // of the tabs, in every dock; each panel once
     // The panel that each dock shows; ignored if that panel is not docked there.
     std::array<PanelId, dockCount> inFront{PanelId::Quadtree, PanelId::Lod, PanelId::Paging, PanelId::Log};
-    // The dock that fills the area between the menu bar and the status bar; ignored if it has no panel.
+    // The dock, or the viewport, that fills the area between the menu bar and the status bar. A dock without a panel is
+    // ignored.
     MaximisedDock maximised = MaximisedDock::None;
     WindowPreferences preferences;  // not a part of a layout
 

@@ -1,5 +1,7 @@
 #include "app/window/frame_pace.h"
 
+#include <algorithm>
+
 namespace worldy {
 
 namespace {
@@ -26,6 +28,17 @@ void FramePace::noteFrame(Activity activity, double nowS) {
 double FramePace::restS(double nowS) const {
     if (nowS - lastMotionS_ < fullSpeedS) return 0;
     return nowS - lastChangeS_ < runOutS ? slowFrameS : longestRestS;
+}
+
+double FramePace::limitS(double nowS, int framesPerSecond) {
+    if (framesPerSecond <= 0) return 0;
+    const double intervalS = 1.0 / framesPerSecond;
+    // A frame that begins a little late does not delay those after it, so that the mean is the limit. After a longer
+    // pause, frames do not catch up.
+    if (nowS > nextFrameS_ + intervalS) nextFrameS_ = nowS;
+    const double waitS = std::max(nextFrameS_ - nowS, 0.0);
+    nextFrameS_ += intervalS;
+    return waitS;
 }
 
 }  // namespace worldy

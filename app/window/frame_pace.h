@@ -35,10 +35,14 @@ public:
     void noteFrame(Activity activity, double nowS);
     // Returns how long the next frame may wait for input, seconds: 0 at full speed.
     double restS(double nowS) const;
+    // Returns how long the next frame must wait, whatever the input, so that no more frames than the limit begin in a
+    // second; 0 if the limit is 0. Call once a frame; nowS may be of another clock than above.
+    double limitS(double nowS, int framesPerSecond);
 
 private:
     double lastMotionS_ = 0;  // or input
     double lastChangeS_ = 0;  // any activity
+    double nextFrameS_ = 0;   // earliest beginning of the next frame under the limit
 };
 
 }  // namespace worldy

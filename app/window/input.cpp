@@ -1,7 +1,7 @@
 #include "app/window/input.h"
 
 #include <GLFW/glfw3.h>
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include "ui/kit/widgets.h"
 
@@ -56,12 +56,19 @@ PointerInput readPointer(float pixelRatio) {
     const double ratio = static_cast<double>(pixelRatio);
     input.over = ImGui::IsItemHovered() || ImGui::IsItemActive();
     input.positionPx = ratio * glm::dvec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
-    if (ImGui::IsItemHovered()) input.wheelNotches = static_cast<double>(io.MouseWheel);
+    const bool isHeld = ImGui::IsItemActive();
+    if (ImGui::IsItemHovered() || isHeld)
+        (io.KeyCtrl ? input.fovNotches
+         : isHeld   ? input.speedNotches
+                    : input.wheelNotches) = static_cast<double>(io.MouseWheel);
     input.clicked = clickedInPlace();
     input.doubleClicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-    if (!ImGui::IsItemActive()) return input;
-    input.dragPx = ratio * dragOf(ImGuiMouseButton_Left);
-    input.lookPx = ratio * dragOf(ImGuiMouseButton_Right);
+    if (!isHeld) return input;
+    input.grabs = io.KeyAlt;
+    // Otherwise ImGui would move the focus to the menu bar when Alt is released.
+    if (input.grabs) ImGui::GetCurrentContext()->NavWindowingToggleLayer = false;
+    (io.KeyAlt ? input.orbitPx : input.dragPx) = ratio * dragOf(ImGuiMouseButton_Left);
+    (io.KeyAlt ? input.dollyPx : input.lookPx) = ratio * dragOf(ImGuiMouseButton_Right);
     return input;
 }
 

@@ -13,13 +13,18 @@ struct PointerInput {
     glm::dvec2 positionPx{0, 0};  // from the picture's top left, in its pixels
     glm::dvec2 dragPx{0, 0};      // right, down; left button
     glm::dvec2 lookPx{0, 0};      // right button
+    bool grabs = false;           // a button is held with Alt
+    glm::dvec2 orbitPx{0, 0};     // left button with Alt
+    glm::dvec2 dollyPx{0, 0};     // right button with Alt
     double wheelNotches = 0;      // towards the planet
+    double speedNotches = 0;      // of the wheel while a button is held
+    double fovNotches = 0;        // of the wheel with Ctrl; towards a narrower field of view
     bool clicked = false;         // pressed and released in one place
     bool doubleClicked = false;
 };
 
 struct KeyInput {
-    HeldKeys held;
+    CameraMotion held;
     int speedSteps = 0;  // + and -
 };
 

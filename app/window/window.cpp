@@ -467,6 +467,10 @@ void Window::close() const {
     glfwSetWindowShouldClose(glfw_->window, GLFW_TRUE);
 }
 
+bool Window::isFocused() const {
+    return glfwGetWindowAttrib(glfw_->window, GLFW_FOCUSED) != 0;
+}
+
 bool Window::waitForInput(double waitS) const {
     // Events that wait for their frame are input as well.
     if (waitS > 0 && !glfw_->hasInput && glfw_->input.empty())

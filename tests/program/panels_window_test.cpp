@@ -72,6 +72,8 @@ expect shown seams/Seams
 click menu/View; expect shown "menu item/Log"; key Escape; expect hidden "menu item/Log"
 key F11; expect hidden tab/LOD; hidden tab/Paging || echo "F11 leaves Paging"
 key F11; expect shown tab/LOD
+key ctrl+shift+7; expect shown tab/Sweep
+key F11; expect hidden tab/Sweep; key F11; expect shown tab/Sweep || echo "F11 brings back other panels"
 )sh");
 }
 
@@ -132,7 +134,8 @@ case "$(counter selected)" in x_pos/*) ;; *) echo "the net selects $(counter sel
 tab Chunk; enter chunk/Id z_pos/1/1/0; expect is_selected z_pos/1/1/0
 enter chunk/Id z_pos/9/1/0; frames; is_selected z_pos/1/1/0 || echo "a wrong id selects $(counter selected)"
 click chunk/Parent; expect is_selected z_pos/0/0/0
-before=$(counter camera); click "chunk/Look at"; frames
+rests() { local was="$(counter camera)"; frames 3; [ "$was" = "$(counter camera)" ]; }
+before=$(counter camera); click "chunk/Look at"; expect rests
 [ "$(counter camera)" != "$before" ] || echo "Look at does not move the camera"
 case "$(counter camera)" in 90,* | 89.*) ;; *) echo "Look at leads to $(counter camera)";; esac
 key Escape; expect is_selected none
@@ -210,7 +213,9 @@ tab Camera; start=$(counter camera)
 # A pose that was kept comes back but for rounding.
 rounded() { echo "$1" | tr , "\n" | xargs printf "%.3f " | sed "s,-\(0\.000\),\1,g"; }
 is_at() { [ "$(rounded "$(counter camera)")" = "$(rounded "$1")" ]; }
-click camera/Himalaya; frames; place=$(counter camera)
+# It glides there.
+rests() { local was="$(counter camera)"; frames 3; [ "$was" = "$(counter camera)" ]; }
+click camera/Himalaya; expect rests; place=$(counter camera)
 [ "$place" != "$start" ] || echo "a bookmark does not move the camera"
 enter camera/Name "A place"; expect shown "camera/A place"
 click camera/Andes; frames; ! is_at "$place" || echo "another bookmark does not move the camera"

@@ -118,7 +118,8 @@ settle; differs "$plain" || echo "the wheel does not come nearer"
 height() { counter camera | cut -d, -f3 | cut -d. -f1; }
 [ "$(height)" -lt 150000 ] || echo "the wheel leads to $(counter camera)"
 key F2; near=$(counter drawn)
-key F3; frames; [ "$(counter camera)" = "$start" ] || echo "F3 leads to $(counter camera)"
+is_at() { [ "$(counter camera)" = "$1" ]; }
+key F3; expect is_at "$start" || echo "F3 leads to $(counter camera)"
 [ "$(counter drawn)" = "$near" ] || echo "frozen, but other chunks are drawn"
 key F2; expect counts drawn -lt $near
 key F7; expect shown observer/picture

@@ -49,6 +49,17 @@ struct FreezeLod {
 };
 struct MoveCamera {
     planet::CameraPose pose;
+    bool glides = false;  // if the preference allows it; otherwise the camera jumps
+};
+struct LookAtPoint {             // turns the camera so that a point lies in the middle of the picture
+    glm::dvec3 pointM{0, 0, 0};  // from the planet's centre
+};
+struct OrbitPoint {  // orbits a point from now on, and turns to it
+    glm::dvec3 pointM{0, 0, 0};
+};
+struct SetSteering {  // preferences of gamepads and 3-D mice
+    double sensitivity = 1;
+    bool inverted = false;
 };
 // Freezes LOD at the view of a measurement, so that the chunks measured are still drawn, and moves the camera
 // near the place. A replay chooses its own chunks, so it is paused instead.
@@ -77,9 +88,9 @@ struct MoveFlight {  // to a time, seconds
 struct PauseFlight {
     bool paused = false;
 };
-using CameraCommand =
-    std::variant<FreezeLod, MoveCamera, InspectPlace, EndInspection, ResetCamera, KeepCameraAsStart,
-                 AddBookmark, RemoveBookmark, SetSpeedFactor, StartFlight, MoveFlight, PauseFlight>;
+using CameraCommand = std::variant<FreezeLod, MoveCamera, LookAtPoint, OrbitPoint, SetSteering, InspectPlace,
+                                   EndInspection, ResetCamera, KeepCameraAsStart, AddBookmark, RemoveBookmark,
+                                   SetSpeedFactor, StartFlight, MoveFlight, PauseFlight>;
 
 // Paging.
 struct PausePaging {
@@ -97,7 +108,10 @@ struct PauseFrames {  // stops motion, selection and loading, except by StepFram
     bool paused = false;
 };
 struct StepFrame {};
-using FrameCommand = std::variant<PauseFrames, StepFrame>;
+struct DrawAtFullSpeed {  // without idling, a frame limit and waiting for the monitor, until it is turned off
+    bool on = false;
+};
+using FrameCommand = std::variant<PauseFrames, StepFrame, DrawAtFullSpeed>;
 
 // Files.
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot

@@ -116,6 +116,14 @@ std::optional<Dock> edgeAt(Point pointer, const Layout& layout, float unitPx) {
     return std::nullopt;
 }
 
+// Returns true if a maximised dock or the maximised viewport takes the panel's room.
+bool isCovered(const PanelPlace& place, const Workspace& workspace) {
+    if (!place.floats && place.dock == Dock::Second) return false;
+    if (isViewportMaximised(workspace)) return true;
+    const std::optional<Dock> maximised = maximisedDock(workspace);
+    return !place.floats && maximised && *maximised != place.dock;
+}
+
 }  // namespace
 
 bool contains(const Rect& rect, Point point) {
@@ -129,6 +137,7 @@ std::vector<PanelId> panelsIn(Dock dock, const Workspace& workspace) {
 }
 
 std::vector<PanelId> floatingPanels(const Workspace& workspace) {
+    if (isViewportMaximised(workspace)) return {};
     return shownPanels(workspace, [](const PanelPlace& place) { return place.floats; });
 }
 
@@ -141,20 +150,15 @@ std::optional<PanelId> frontPanel(Dock dock, const Workspace& workspace) {
 
 bool isVisible(PanelId panel, const Workspace& workspace) {
     const PanelPlace& place = placeOf(panel, workspace);
-    if (!place.shown || place.floats) return place.shown;
-    const std::optional<Dock> maximised = maximisedDock(workspace);
-    const bool isCovered = maximised && *maximised != place.dock && place.dock != Dock::Second;
-    return frontPanel(place.dock, workspace) == panel && !isCovered;
+    if (!place.shown || isCovered(place, workspace)) return false;
+    return place.floats || frontPanel(place.dock, workspace) == panel;
 }
 
 void showPanel(PanelId panel, Workspace& workspace) {
     PanelPlace& place = placeOf(panel, workspace);
     place.shown = true;
-    if (place.floats) return;
-    workspace.inFront[static_cast<std::size_t>(place.dock)] = panel;
-    const std::optional<Dock> maximised = maximisedDock(workspace);
-    if (maximised && *maximised != place.dock && place.dock != Dock::Second)
-        workspace.maximised = MaximisedDock::None;
+    if (isCovered(place, workspace)) workspace.maximised = MaximisedDock::None;
+    if (!place.floats) workspace.inFront[static_cast<std::size_t>(place.dock)] = panel;
 }
 
 void togglePanel(PanelId panel, Workspace& workspace) {
@@ -171,6 +175,19 @@ void toggleMaximised(Dock dock, Workspace& workspace) {
         workspace.maximised = MaximisedDock::None;
     else
         workspace.maximised = static_cast<MaximisedDock>(static_cast<int>(dock) + 1);
+}
+
+void toggleAllPanels(Workspace& workspace) {
+    if (isViewportMaximised(workspace)) {
+        workspace.maximised = MaximisedDock::None;
+        return;
+    }
+    if (std::ranges::any_of(workspace.panels, &PanelPlace::shown)) {
+        workspace.maximised = MaximisedDock::Viewport;
+        return;
+    }
+    const auto first = firstPlaces();
+    for (std::size_t i = 0; i < panelCount; ++i) workspace.panels[i].shown = first[i].shown;
 }
 
 std::size_t positionIn(Dock dock, PanelId panel, const Workspace& workspace) {
@@ -204,9 +221,9 @@ void leaveSecondWindow(Workspace& workspace) {
 
 void floatPanel(PanelId panel, const FloatingPlace& floating, Workspace& workspace) {
     PanelPlace& place = placeOf(panel, workspace);
-    place.shown = true;
     place.floats = true;
     place.floating = floating;
+    showPanel(panel, workspace);
 }
 
 Rect floatingRect(const FloatingPlace& place, const Rect& area, float unitPx) {

@@ -29,20 +29,24 @@ inline const PanelPlace& placeOf(PanelId panel, const Workspace& workspace) {
 
 // Returns the shown panels of a dock in the order of their tabs.
 std::vector<PanelId> panelsIn(Dock dock, const Workspace& workspace);
-// Returns the shown panels that float, in the order of the tabs.
+// Returns the panels that are drawn in windows of their own, in the order of the tabs.
 std::vector<PanelId> floatingPanels(const Workspace& workspace);
 // Returns the panel that a dock shows; none if it has no panel.
 std::optional<PanelId> frontPanel(Dock dock, const Workspace& workspace);
 // Returns true if the panel is drawn: it floats or is in front in a dock that no other dock covers.
 bool isVisible(PanelId panel, const Workspace& workspace);
 
-// Shows a panel in front of its dock, or floating. Ends the maximising of another dock, which would cover it.
+// Shows a panel in front of its dock, or floating. Ends the maximising of another dock, which would cover it, and of the
+// viewport.
 void showPanel(PanelId panel, Workspace& workspace);
 // Hides a visible panel; shows any other.
 void togglePanel(PanelId panel, Workspace& workspace);
 
 // Maximises the dock, or restores it if it is maximised. The second window has no dock to maximise.
 void toggleMaximised(Dock dock, Workspace& workspace);
+
+// Puts all panels away, or brings back those that were put away. If no panel is shown, shows the default ones.
+void toggleAllPanels(Workspace& workspace);
 
 // Moves a panel into a dock, in front, before the tab at the position among those of its other panels; a
 // position past the end stands for the end.

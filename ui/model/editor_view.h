@@ -14,6 +14,7 @@
 #include "app/data/worlds.h"
 #include "app/scene/frame_stats.h"
 #include "app/scene/overlay_lines.h"
+#include "app/scene/steering.h"
 #include "app/settings/setting_difference.h"
 #include "app/settings/view_settings.h"
 #include "planet/bake/bake_estimate.h"
@@ -48,6 +49,8 @@ struct FramesView {
     double timeS = 0;
     bool paused = false;
     const char* drawnBecause = "";  // completes "Frames are drawn because ..."
+    bool fullSpeed = false;         // DrawAtFullSpeed
+    int limit = 0;                  // most frames a second now; 0: none
 };
 
 struct DataView {
@@ -106,6 +109,13 @@ struct FlightView {
     bool paused = false;
 };
 
+// The devices that steer the camera, besides keyboard and mouse.
+struct SteeringView {
+    std::span<const SteeringState> devices{};  // that are connected
+    double sensitivity = 1;
+    bool inverted = false;
+};
+
 struct CameraView {
     planet::CameraPose pose;
     std::optional<double> seaSurfaceM{};  // metres above the planet's radius, if drawn as water
@@ -117,6 +127,7 @@ struct CameraView {
     planet::View renderView;  // of the main picture
     bool lodFrozen = false;
     bool inspecting = false;  // EndInspection goes back
+    SteeringView steering{};
 };
 
 struct PresetView {

@@ -16,7 +16,8 @@ bool holdsPanels(const Workspace& workspace, Dock dock) {
 }
 
 float sizeOf(const Workspace& workspace, Dock dock, double units, float unitPx) {
-    return holdsPanels(workspace, dock) ? std::round(static_cast<float>(units) * unitPx) : 0;
+    const bool isDrawn = holdsPanels(workspace, dock) && !isViewportMaximised(workspace);
+    return isDrawn ? std::round(static_cast<float>(units) * unitPx) : 0;
 }
 
 void coverBy(Dock dock, Layout& layout) {
@@ -29,9 +30,13 @@ void coverBy(Dock dock, Layout& layout) {
 }  // namespace
 
 std::optional<Dock> maximisedDock(const Workspace& workspace) {
-    if (workspace.maximised == MaximisedDock::None) return std::nullopt;
+    if (workspace.maximised == MaximisedDock::None || isViewportMaximised(workspace)) return std::nullopt;
     const auto dock = static_cast<Dock>(static_cast<int>(workspace.maximised) - 1);
     return holdsPanels(workspace, dock) ? std::optional(dock) : std::nullopt;
+}
+
+bool isViewportMaximised(const Workspace& workspace) {
+    return workspace.maximised == MaximisedDock::Viewport;
 }
 
 double fittingScale(double scale, float windowWidth, float windowHeight, float fontPx) {

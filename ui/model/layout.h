@@ -35,6 +35,8 @@ struct Layout {
 
 // Returns the dock that fills the area; none if no dock is maximised, or that dock has no panel.
 std::optional<Dock> maximisedDock(const Workspace& workspace);
+// Returns true while all panels are away, so that only the viewport is seen.
+bool isViewportMaximised(const Workspace& workspace);
 
 // Returns the layout of the main window. Floating panels take no room in it, and the dock of the second window is empty.
 // The viewport keeps at least a third of the window in each direction, whatever the sizes of the docks.

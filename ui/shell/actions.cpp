@@ -11,6 +11,7 @@
 #include "ui/model/docking.h"
 #include "ui/model/font_symbols.h"
 #include "ui/model/key_names.h"
+#include "ui/model/picked_point.h"
 #include "ui/shell/focus.h"
 #include "ui/shell/text_scale.h"
 
@@ -210,16 +211,11 @@ void addPanels(List& list) {
                         .keys = {info.shortcut},
                         .panel = info.id,
                         .act = [id = info.id](const Context& c) { togglePanel(id, c.workspace); },
-                        .isOn = [id = info.id](const Context& c) { return isShown(c.workspace, id); }});
+                        .isOn =
+                            [id = info.id](const Context& c) {
+                                return isShown(c.workspace, id) && !isViewportMaximised(c.workspace);
+                            }});
     }
-}
-
-// Hides all panels, or shows the default panels if none is shown.
-void toggleAllPanels(Workspace& workspace) {
-    auto& panels = workspace.panels;
-    const bool anyShown = std::any_of(panels.begin(), panels.end(), [](const auto& p) { return p.shown; });
-    const auto first = firstPlaces();
-    for (std::size_t i = 0; i < panels.size(); ++i) panels[i].shown = !anyShown && first[i].shown;
 }
 
 std::string needsUsedPanel(const Context& c) {
@@ -406,6 +402,22 @@ void addTheme(List& list) {
     add("light_theme", "Light theme", Theme::Light);
 }
 
+void addFrameLimits(List& list) {
+    constexpr std::array limits = {0, 30, 60, 120, 144, 240};
+    for (const int limit : limits) {
+        const std::string number = std::to_string(limit);
+        list.push_back(
+            {.id = "frame_limit_" + number,
+             .name = limit == 0 ? "No frame limit" : "At most " + number + " frames a second",
+             .help = "Limits how many frames are drawn in a second.",
+             .menu = Menu::View,
+             .group = 4,
+             .submenu = "Frame limit",
+             .act = [=](const Context& c) { c.workspace.preferences.frameLimit = limit; },
+             .isOn = [=](const Context& c) { return c.workspace.preferences.frameLimit == limit; }});
+    }
+}
+
 void addFramePace(List& list) {
     list.push_back(
         {.id = "idle",
@@ -425,6 +437,17 @@ void addFramePace(List& list) {
          .setting = "window.vsync",
          .act = [](const Context& c) { c.workspace.preferences.vsync = !c.workspace.preferences.vsync; },
          .isOn = [](const Context& c) { return c.workspace.preferences.vsync; }});
+    addFrameLimits(list);
+    list.push_back(
+        {.id = "full_speed",
+         .name = "Full speed",
+         .help = "Draws as many frames as the machine can until it is chosen again: no idling, no frame "
+                 "limit, no wait for the monitor.",
+         .menu = Menu::View,
+         .group = 4,
+         .keys = {"Shift+F5"},
+         .act = [](const Context& c) { c.commands.push_back(DrawAtFullSpeed{!c.view.frames.fullSpeed}); },
+         .isOn = [](const Context& c) { return c.view.frames.fullSpeed; }});
 }
 
 void addTextAndLayout(List& list) {
@@ -460,7 +483,7 @@ void addTextAndLayout(List& list) {
                         }});
     list.push_back({.id = "all_panels",
                     .name = "All panels",
-                    .help = "Hides all panels, or shows the default ones if none is shown.",
+                    .help = "Puts all panels away, or brings back those that were shown.",
                     .menu = Menu::View,
                     .group = 3,
                     .keys = {"F11"},
@@ -472,8 +495,9 @@ void addTextAndLayout(List& list) {
 std::vector<ActionChoice> bookmarks(const Context& c) {
     std::vector<ActionChoice> choices;
     for (const Bookmark& bookmark : c.view.camera.bookmarks)
-        choices.push_back({bookmark.name, needsPlanet(c),
-                           [pose = bookmark.pose](Commands& to) { to.push_back(MoveCamera{pose}); }});
+        choices.push_back({bookmark.name, needsPlanet(c), [pose = bookmark.pose](Commands& to) {
+                               to.push_back(MoveCamera{pose, true});
+                           }});
     return choices;
 }
 
@@ -531,6 +555,87 @@ void addPlaces(List& list) {
                     .group = 1,
                     .act = [](const Context& c) { c.menu.press = MenuState::Press::MiddleOfViewport; },
                     .whyNot = needsPlanet});
+}
+
+std::string needsPoint(const Context& c) {
+    if (!c.view.planet) return needsPlanet(c);
+    return unless(
+        pickedPoint(c.view).has_value(),
+        "No ground is under the pointer or in the middle of the picture, and no chunk is selected.");
+}
+
+// The point is the one that pickedPoint() returns.
+void addPoints(List& list) {
+    list.push_back({.id = "look_at_point",
+                    .name = "Look at the point",
+                    .help = "Turns the camera to the ground under the pointer, else to the selected chunk.",
+                    .menu = Menu::Camera,
+                    .group = 1,
+                    .keys = {"F"},
+                    .act = [](const Context& c) { c.commands.push_back(LookAtPoint{*pickedPoint(c.view)}); },
+                    .whyNot = needsPoint});
+    list.push_back(
+        {.id = "orbit_point",
+         .name = "Orbit the point",
+         .help = "Orbits the ground under the pointer, else the selected chunk, else the middle of the "
+                 "picture; chosen again, flies.",
+         .menu = Menu::Camera,
+         .group = 1,
+         .keys = {"O"},
+         .act =
+             [](const Context& c) {
+                 if (c.settings.camera.mode == CameraMode::Orbit)
+                     c.settings.camera.mode = CameraMode::Fly;
+                 else
+                     c.commands.push_back(OrbitPoint{*pickedPoint(c.view)});
+             },
+         .isOn = [](const Context& c) { return c.settings.camera.mode == CameraMode::Orbit; },
+         .whyNot =
+             [](const Context& c) {
+                 return c.settings.camera.mode == CameraMode::Orbit ? "" : needsPoint(c);
+             }});
+    list.push_back(
+        {.id = "glide",
+         .name = "Glide to places",
+         .help = "The camera glides to bookmarks, places and notes instead of jumping.",
+         .menu = Menu::Camera,
+         .group = 1,
+         .setting = "window.glide",
+         .act = [](const Context& c) { c.workspace.preferences.glide = !c.workspace.preferences.glide; },
+         .isOn = [](const Context& c) { return c.workspace.preferences.glide; }});
+}
+
+void addLens(List& list) {
+    const auto addFov = [&](const char* id, const char* name, const char* help, const char* key,
+                            double notches) {
+        list.push_back({.id = id,
+                        .name = name,
+                        .help = help,
+                        .menu = Menu::Camera,
+                        .group = 4,
+                        .keys = {key},
+                        .act = [=](const Context& c) {
+                            c.settings.camera.fovDeg = narrowedFovDeg(c.settings.camera.fovDeg, notches);
+                        }});
+    };
+    addFov("narrower_view", "Narrow field of view", "Magnifies the picture by a tenth, as Ctrl+wheel does.",
+           "]", 1);
+    addFov("wider_view", "Widen field of view", "Widens the picture by a tenth, as Ctrl+wheel does.", "[",
+           -1);
+    const auto addSpeed = [&](const char* id, const char* name, double factor) {
+        list.push_back({.id = id,
+                        .name = name,
+                        .help = "Changes the speed of the camera by half, as + and - do.",
+                        .menu = Menu::Camera,
+                        .group = 4,
+                        .act =
+                            [=](const Context& c) {
+                                c.commands.push_back(SetSpeedFactor{c.view.camera.speedFactor * factor});
+                            },
+                        .whyNot = needsPlanet});
+    };
+    addSpeed("faster", "Fly faster", 1.5);
+    addSpeed("slower", "Fly slower", 1 / 1.5);
 }
 
 void addFrames(List& list) {
@@ -716,8 +821,10 @@ List makeActions() {
     addFramePace(list);
     addCameraModes(list);
     addPlaces(list);
+    addPoints(list);
     addFrames(list);
     addObserver(list);
+    addLens(list);
     addHelp(list);
     addWithoutMenu(list);
     return list;

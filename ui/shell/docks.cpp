@@ -144,7 +144,8 @@ void drawDocks(const Layout& layout, const EditorView& view, PanelStates& panels
     state.rows.clear();
     state.drawn = {};
     // A dock that has lost its last panel is not maximised when it gets another one.
-    if (!maximisedDock(workspace)) workspace.maximised = MaximisedDock::None;
+    if (!maximisedDock(workspace) && !isViewportMaximised(workspace))
+        workspace.maximised = MaximisedDock::None;
     for (const Dock dock : {Dock::Left, Dock::Right, Dock::Bottom})
         drawDock(dock, layout, view, panels, state, workspace, settings, commands);
     drawSecondWindow(layout, view, panels, state, workspace, settings, commands);

@@ -156,7 +156,9 @@ void followFocus(const Workspace& workspace, MenuState& state) {
     pressByEnter();
     if (const auto panel = panelWithFocus(workspace)) state.usedPanel = panel;
     if (const auto panel = floatingPanelWithFocus(workspace)) state.usedPanel = panel;
-    if (state.usedPanel && !isShown(workspace, *state.usedPanel)) state.usedPanel.reset();
+    const bool isAway =
+        isViewportMaximised(workspace) || (state.usedPanel && !isShown(workspace, *state.usedPanel));
+    if (isAway) state.usedPanel.reset();
     framePane();
 }
 

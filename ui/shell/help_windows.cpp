@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/shell/gamepad_actions.h"
 
 namespace worldy::ui {
 
@@ -68,15 +70,17 @@ struct KeyList {
     const char* title;
     std::vector<KeyHelp> keys;
 };
+using KeyColumn = std::vector<KeyList>;  // lists one below the other
 
-std::vector<KeyList> keyLists(const ActionKeys& keys) {
-    std::vector<KeyList> lists = {{"fixed", "Mouse and fixed keys", fixedKeys()},
-                                  {"commands", "Commands", commandKeys(keys)},
-                                  {"panels", "Panels: bring to the front, or hide", {}}};
-    const auto firstPanel = std::ranges::find(lists[1].keys, panelInfos[0].title, &KeyHelp::meaning);
-    lists[2].keys.assign(firstPanel, lists[1].keys.end());
-    lists[1].keys.erase(firstPanel, lists[1].keys.end());
-    return lists;
+std::vector<KeyColumn> keyColumns(const ActionKeys& keys) {
+    std::vector<KeyHelp> commands = commandKeys(keys);
+    const auto firstPanel = std::ranges::find(commands, panelInfos[0].title, &KeyHelp::meaning);
+    std::vector<KeyHelp> panels(firstPanel, commands.end());
+    commands.erase(firstPanel, commands.end());
+    return {{{"fixed", "Mouse and fixed keys", fixedKeys()},
+             {"steering", "Gamepad and 3-D mouse", steeringHelp()}},
+            {{"commands", "Commands", std::move(commands)}},
+            {{"panels", "Panels: bring to the front, or hide", std::move(panels)}}};
 }
 
 void keysWindow(const ActionContext& context) {
@@ -85,15 +89,18 @@ void keysWindow(const ActionContext& context) {
     const float gap = 2 * ImGui::GetFontSize();
     const float room = ImGui::GetMainViewport()->WorkSize.x - 2 * gap;
     float used = 0;
-    for (const KeyList& list : keyLists(context.keys)) {
-        const float width = keyTableWidth(list.keys);
+    for (const KeyColumn& column : keyColumns(context.keys)) {
+        float width = 0;
+        for (const KeyList& list : column) width = std::max(width, keyTableWidth(list.keys));
         if (used > 0 && used + gap + width < room) {
             ImGui::SameLine(0, gap);
             used += gap + width;
         } else {
             used = width;
         }
-        keyTable(list.id, list.title, list.keys);
+        ImGui::BeginGroup();
+        for (const KeyList& list : column) keyTable(list.id, list.title, list.keys);
+        ImGui::EndGroup();
     }
     ImGui::Separator();
     wrappedText("The keys of commands and panels can be changed in the file " + keyFilePath().string() + ".",
@@ -112,6 +119,10 @@ std::vector<KeyHelp> fixedKeys() {
         {"Left drag", "move across the planet"},
         {"Right drag", "look around"},
         {"Wheel", "zoom"},
+        {"Wheel while a button is held", "change the speed"},
+        {"Ctrl+wheel", "change the field of view"},
+        {"Alt+left drag", "orbit the point under the pointer"},
+        {"Alt+right drag", "move to the point under the pointer, or away"},
         {"Click", "select the chunk under the pointer"},
         {"W A S D, E Q", "fly; up and down"},
         {"I J K L", "turn"},
@@ -140,6 +151,19 @@ std::vector<KeyHelp> commandKeys(const ActionKeys& keys) {
     }
     commands.insert(commands.end(), panels.begin(), panels.end());
     return commands;
+}
+
+std::vector<KeyHelp> steeringHelp() {
+    std::vector<KeyHelp> help = {
+        {"Left stick", "fly"},
+        {"Right stick", "look around"},
+        {"Left, right trigger", "down, up"},
+        {"3-D mouse, shifted", "fly; up and down"},
+        {"3-D mouse, tilted or twisted", "look around"},
+    };
+    for (const ButtonAction& button : buttonActions())
+        help.push_back({button.name, actionNamed(button.id).name});
+    return help;
 }
 
 void helpWindows(const ActionContext& context) {

@@ -18,6 +18,9 @@ std::vector<KeyHelp> fixedKeys();
 // Returns the keys of the commands, those of panels last. Commands without a key are left out.
 std::vector<KeyHelp> commandKeys(const ActionKeys& keys);
 
+// Returns what gamepads and 3-D mice do.
+std::vector<KeyHelp> steeringHelp();
+
 // Draws the windows that are shown.
 void helpWindows(const ActionContext& context);
 

@@ -158,7 +158,9 @@ void addPlace(PaletteItems& items, std::string_view query, const ActionContext& 
          .whyNot = !context.view.planet ? "No planet is open." : problem,
          .isTyped = true},
         {.choose = [pose = poseAbove(place.value_or(TypedPlace{}), context.view.camera.pose)](
-                       const ActionContext& c) { c.commands.push_back(MoveCamera{pose}); }});
+                       const ActionContext& c) {
+            c.commands.push_back(MoveCamera{pose, true});
+        }});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Inspecting a place, and what is drawn after it.
+// Inspecting a place, what is drawn after it, and moving to places.
 #include "app/editor/camera_controller.h"
 
 #include <gtest/gtest.h>
@@ -11,10 +11,11 @@ struct CameraControllerTest : testing::Test {
     Settings settings_;
     PopSide side_ = PopSide::Live;
     bool stepOnce_ = false;
+    bool paused_ = false;
     ui::ReplayControls replay_;
 
-    CameraContext context() { return {nullptr, settings_, side_, stepOnce_, nullptr}; }
-    CameraContext replaying() { return {nullptr, settings_, side_, stepOnce_, &replay_}; }
+    CameraContext context() { return {nullptr, settings_, side_, stepOnce_, paused_, nullptr}; }
+    CameraContext replaying() { return {nullptr, settings_, side_, stepOnce_, false, &replay_}; }
     void inspectPop(PopSide side) {
         camera_.rig = CameraRig{};
         inspect(camera_, {}, {}, context());
@@ -62,6 +63,39 @@ TEST_F(CameraControllerTest, camerasStayOverAPlanetOfTheSameRadius) {
     EXPECT_TRUE(camera_.rig);
     meetPlanet(camera_, 2e6);
     EXPECT_FALSE(camera_.rig);
+}
+
+TEST_F(CameraControllerTest, theCameraGlidesToAPlace) {
+    camera_.rig = CameraRig{.camera = {.eyeM = {7e6, 0, 0}}};
+    glideCamera(camera_, {.eyeM = {0, 8e6, 0}}, context());
+    ASSERT_TRUE(camera_.rig->glide);
+    EXPECT_EQ(camera_.rig->glide->to.eyeM, glm::dvec3(0, 8e6, 0));
+    EXPECT_EQ(camera_.rig->camera.eyeM, glm::dvec3(7e6, 0, 0));
+}
+
+TEST_F(CameraControllerTest, theCameraJumpsIfTheUserPrefersItWhilePausedAndInAReplay) {
+    const auto jumps = [&](const CameraContext& context) {
+        camera_.rig = CameraRig{.camera = {.eyeM = {7e6, 0, 0}}};
+        glideCamera(camera_, {.eyeM = {0, 8e6, 0}}, context);
+        return !camera_.rig->glide && camera_.rig->camera.eyeM == glm::dvec3(0, 8e6, 0);
+    };
+    EXPECT_FALSE(jumps(context()));
+    EXPECT_TRUE(jumps(replaying()));
+    paused_ = true;
+    EXPECT_TRUE(jumps(context()));
+    paused_ = false;
+    settings_.workspace.preferences.glide = false;
+    EXPECT_TRUE(jumps(context()));
+}
+
+TEST_F(CameraControllerTest, measuredPlacesAreReachedAtOnce) {
+    camera_.rig = CameraRig{.camera = {.eyeM = {7e6, 0, 0}}};
+    glideCamera(camera_, {.eyeM = {0, 8e6, 0}}, context());
+    inspect(camera_, {.eyeM = {0, 0, 9e6}}, {}, context());
+    EXPECT_FALSE(camera_.rig->glide);
+    EXPECT_EQ(camera_.rig->camera.eyeM, glm::dvec3(0, 0, 9e6));
+    endInspection(camera_, context());
+    EXPECT_EQ(camera_.rig->camera.eyeM, glm::dvec3(7e6, 0, 0));
 }
 
 }  // namespace

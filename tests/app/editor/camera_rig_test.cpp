@@ -34,7 +34,7 @@ struct Driver {
     CameraSettings settings;
     Surroundings around = smoothPlanet();
 
-    planet::Result<void> frame(const PointerInput& pointer = {}, const HeldKeys& keys = {},
+    planet::Result<void> frame(const PointerInput& pointer = {}, const CameraMotion& keys = {},
                                double seconds = 1.0 / 60) {
         const planet::View view = viewOf(rig.camera, glm::radians(60.0), 800, 600);
         return advanceRig(rig, around, view, pointer, keys, seconds, settings);
@@ -58,6 +58,10 @@ void expectSame(const Camera& a, const Camera& b, double toleranceM = 1e-3) {
 double offMiddleRad(const CameraRig& rig) {
     const glm::dvec3 towards = glm::normalize(*rig.pivotM - rig.camera.eyeM);
     return std::acos(std::clamp(glm::dot(towards, -rig.camera.back), -1.0, 1.0));
+}
+
+bool touchesNothing(const PointerInput& pointer) {
+    return !pointer.grabs && pointer.wheelNotches == 0 && pointer.dragPx + pointer.lookPx == glm::dvec2(0, 0);
 }
 
 std::filesystem::path writeFlight(const tests::TemporaryFolder& folder, const char* name = "flight.toml") {
@@ -295,6 +299,120 @@ TEST(CameraRig, placingLeavesAFlightAndForgetsThePivot) {
     EXPECT_EQ(driver.settings.mode, CameraMode::Fly);
     ASSERT_TRUE(driver.frame());
     expectSame(driver.rig.camera, there);
+}
+
+TEST(CameraRig, aGlideTakesASecondAndEndsAtThePlace) {
+    for (const CameraMode mode : {CameraMode::Fly, CameraMode::Orbit}) {
+        Driver driver;
+        driver.settings.mode = mode;
+        ASSERT_TRUE(driver.frame());
+        const Camera there = cameraAt(-33, 151, 4000, 10, -10);
+        glideRig(driver.rig, there, driver.settings);
+        ASSERT_TRUE(driver.frame({}, {}, 0.01));
+        EXPECT_LT(glm::length(driver.rig.camera.eyeM - cameraAt(27, 86, 50'000, 30, -35).eyeM), 100'000);
+        for (int i = 0; i < 98; ++i) ASSERT_TRUE(driver.frame({}, {}, 0.01));
+        EXPECT_TRUE(driver.rig.glide);
+        for (int i = 0; i < 2; ++i) ASSERT_TRUE(driver.frame({}, {}, 0.01));
+        EXPECT_FALSE(driver.rig.glide);
+        expectSame(driver.rig.camera, there);
+        EXPECT_EQ(driver.settings.mode, mode);
+        // Orbiting goes on around the middle of the new picture.
+        ASSERT_TRUE(driver.frame());
+        if (mode == CameraMode::Orbit) {
+            EXPECT_LT(offMiddleRad(driver.rig), 1e-6);
+        }
+    }
+}
+
+TEST(CameraRig, anyInputEndsAGlideWhereItIs) {
+    const std::array<PointerInput, 5> pointers = {PointerInput{.dragPx = {1, 0}},
+                                                  PointerInput{.lookPx = {0, 1}}, PointerInput{.grabs = true},
+                                                  PointerInput{.wheelNotches = 0.1}, PointerInput{}};
+    for (const PointerInput& pointer : pointers) {
+        Driver driver;
+        glideRig(driver.rig, cameraAt(-33, 151, 4000, 10, -10), driver.settings);
+        for (int i = 0; i < 30; ++i) ASSERT_TRUE(driver.frame());
+        ASSERT_TRUE(driver.rig.glide);
+        const Camera before = driver.rig.camera;
+        const bool moves = touchesNothing(pointer);
+        ASSERT_TRUE(driver.frame(pointer, {.lookUp = moves ? 0.01 : 0.0}));
+        EXPECT_FALSE(driver.rig.glide);
+        EXPECT_LT(glm::length(driver.rig.camera.eyeM - before.eyeM), 0.05 * glm::length(before.eyeM));
+        ASSERT_TRUE(driver.frame());
+        EXPECT_FALSE(driver.rig.glide);
+    }
+}
+
+TEST(CameraRig, aGlideLeavesAFlightAndCountsAsAJump) {
+    const tests::TemporaryFolder folder;
+    Driver driver;
+    ASSERT_TRUE(startFlight(driver.rig, writeFlight(folder), driver.settings));
+    ASSERT_TRUE(driver.frame());
+    glideRig(driver.rig, cameraAt(-33, 151, 4000, 10, -10), driver.settings);
+    takeJump(driver.rig);
+    ASSERT_TRUE(driver.frame());
+    EXPECT_EQ(driver.settings.mode, CameraMode::Fly);
+    EXPECT_TRUE(driver.rig.glide);
+    EXPECT_TRUE(takeJump(driver.rig));
+    placeRig(driver.rig, cameraAt(0, 0, 4000, 0, 0), driver.settings);
+    EXPECT_FALSE(driver.rig.glide);
+}
+
+TEST(CameraRig, altDragOrbitsThePointUnderThePointerAndKeepsItThere) {
+    Driver driver;
+    const planet::View view = viewOf(driver.rig.camera, glm::radians(60.0), 800, 600);
+    PointerInput pointer{.positionPx = {550, 400}, .grabs = true};
+    ASSERT_TRUE(driver.frame(pointer));
+    ASSERT_TRUE(driver.rig.grab);
+    const glm::dvec3 pointM = driver.rig.grab->pointM;
+    const auto pixel = [&] {
+        return *pixelOf(viewOf(driver.rig.camera, glm::radians(60.0), 800, 600), pointM);
+    };
+    EXPECT_NEAR(glm::length(*pixelOf(view, pointM) - pointer.positionPx), 0, 1e-6);
+    const glm::dvec3 eyeM = driver.rig.camera.eyeM;
+    const double distanceM = glm::length(eyeM - pointM);
+    pointer.orbitPx = {5, 2};
+    for (int i = 0; i < 20; ++i) {
+        pointer.positionPx += pointer.orbitPx;
+        ASSERT_TRUE(driver.frame(pointer));
+        ASSERT_NEAR(glm::length(driver.rig.camera.eyeM - pointM), distanceM, 0.01);
+        ASSERT_NEAR(glm::length(pixel() - glm::dvec2(550, 400)), 0, 0.01);
+        expectLevel(driver.rig.camera);
+    }
+    EXPECT_GT(glm::length(driver.rig.camera.eyeM - eyeM), 0.3 * distanceM);
+    // The other button moves towards the point.
+    pointer.orbitPx = {0, 0};
+    pointer.dollyPx = {0, -30};
+    ASSERT_TRUE(driver.frame(pointer));
+    EXPECT_LT(glm::length(driver.rig.camera.eyeM - pointM), 0.9 * distanceM);
+    EXPECT_NEAR(glm::length(pixel() - glm::dvec2(550, 400)), 0, 0.01);
+    ASSERT_TRUE(driver.frame());
+    EXPECT_FALSE(driver.rig.grab);
+}
+
+TEST(CameraRig, anOrbitedPointMayBeBesideTheMiddle) {
+    Driver driver;
+    const Camera before = driver.rig.camera;
+    const glm::dvec3 pointM = cameraAt(27.4, 86.3, 0, 0, 0).eyeM;
+    orbitPoint(driver.rig, pointM, driver.settings);
+    ASSERT_TRUE(driver.frame());
+    expectSame(driver.rig.camera, before);
+    for (int i = 0; i < 50; ++i) ASSERT_TRUE(driver.frame({}, {.right = 1}));
+    EXPECT_EQ(*driver.rig.pivotM, pointM);
+    EXPECT_NEAR(glm::length(driver.rig.camera.eyeM - pointM), glm::length(before.eyeM - pointM), 0.01);
+}
+
+TEST(CameraRig, aNarrowFieldOfViewTurnsSlower) {
+    const auto turnedRad = [](double fovDeg) {
+        Driver driver;
+        const Camera before = driver.rig.camera;
+        const planet::View view = viewOf(before, glm::radians(fovDeg), 800, 600);
+        EXPECT_TRUE(advanceRig(driver.rig, driver.around, view, {}, {.lookUp = 1}, 0.1, driver.settings));
+        return std::acos(std::min(glm::dot(before.back, driver.rig.camera.back), 1.0));
+    };
+    EXPECT_NEAR(turnedRad(60), glm::radians(6.0), 1e-6);
+    EXPECT_NEAR(turnedRad(90), glm::radians(6.0), 1e-6);
+    EXPECT_NEAR(turnedRad(20), glm::radians(2.0), 1e-6);
 }
 
 TEST(CameraRig, theGroundLiftsEveryMode) {

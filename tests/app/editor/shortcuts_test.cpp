@@ -60,6 +60,14 @@ TEST_F(ShortcutsTest, escLeavesASettingBeforeItClosesThePalette) {
     EXPECT_TRUE(bench_.commands.empty());
 }
 
+TEST_F(ShortcutsTest, aButtonDoesWhatItsActionDoesAndSaysWhyNot) {
+    const std::array pressed = {GamepadButton::X, GamepadButton::Guide, GamepadButton::A};
+    obeyButtons(pressed, bench_.context());
+    ASSERT_EQ(bench_.commands.size(), 1u);
+    EXPECT_TRUE(bench_.commands.front().as<ui::FreezeLod>());
+    EXPECT_EQ(bench_.menu.refused, "Select chunk in the middle: No planet is open.");
+}
+
 TEST_F(ShortcutsTest, aChangedKeyActsAndTheOldOneDoesNot) {
     keysOf("freeze_lod") = {*keyChordFrom("Ctrl+Alt+F")};
     press("F2");

@@ -173,12 +173,12 @@ TEST(CameraControl, SpeedGrowsWithHeightAndTheFactorAndHasALimit) {
 
 TEST(CameraControl, KeysMoveInStepWithTime) {
     const Camera camera = cameraAt(0, 0, 1000, 0, -90);
-    const Camera once = moveByKeys(camera, sea, {.lookRight = 1}, 1, 0.5);
+    const Camera once = steered(camera, sea, {.lookRight = 1}, 1, 0.5);
     const Camera twice =
-        moveByKeys(moveByKeys(camera, sea, {.lookRight = 1}, 1, 0.25), sea, {.lookRight = 1}, 1, 0.25);
+        steered(steered(camera, sea, {.lookRight = 1}, 1, 0.25), sea, {.lookRight = 1}, 1, 0.25);
     EXPECT_NEAR(glm::length(once.right - twice.right), 0, 1e-9);
     EXPECT_NEAR(poseOf(once).headingDeg, 30, 1e-6);
-    EXPECT_EQ(moveByKeys(camera, sea, {}, 1, 0.5).eyeM, camera.eyeM);
+    EXPECT_EQ(steered(camera, sea, {}, 1, 0.5).eyeM, camera.eyeM);
 }
 
 }  // namespace

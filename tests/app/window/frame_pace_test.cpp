@@ -53,5 +53,45 @@ TEST(FramePace, workInTheBackgroundIsShownAFewTimesASecondAndForAWhileAfterItsEn
     EXPECT_EQ(pace.restS(110), longestRestS);
 }
 
+// Runs frames that each take a while, and wake up a little late. Returns how many begin in a number of seconds.
+int framesIn(double seconds, double frameS, int limit, double lateS = 0) {
+    FramePace pace;
+    int frames = 0;
+    for (double nowS = 50; nowS < 50 + seconds; ++frames) {
+        const double waitS = pace.limitS(nowS, limit);
+        EXPECT_GE(waitS, 0);
+        nowS += waitS + (waitS > 0 ? lateS : 0) + frameS;
+    }
+    return frames;
+}
+
+TEST(FramePace, noMoreFramesBeginInASecondThanTheLimit) {
+    EXPECT_NEAR(framesIn(10, 0.001, 30), 300, 1);
+    EXPECT_NEAR(framesIn(10, 0.001, 60), 600, 1);
+    EXPECT_NEAR(framesIn(10, 0.001, 60, 0.0002), 600, 1);
+    EXPECT_NEAR(framesIn(10, 0.001, 0), 10'000, 1);
+}
+
+TEST(FramePace, framesSlowerThanTheLimitDoNotWait) {
+    FramePace pace;
+    double nowS = 7;
+    pace.limitS(nowS, 60);
+    for (int frame = 0; frame < 10; ++frame) EXPECT_EQ(pace.limitS(nowS += 0.1, 60), 0);
+}
+
+TEST(FramePace, theFrameAfterOneThatWasALittleLateIsInTime) {
+    FramePace pace;
+    EXPECT_EQ(pace.limitS(5, 50), 0);
+    EXPECT_EQ(pace.limitS(5.025, 50), 0);
+    EXPECT_NEAR(pace.limitS(5.03, 50), 0.01, 1e-9);
+}
+
+TEST(FramePace, framesDoNotCatchUpAfterAPause) {
+    FramePace pace;
+    pace.limitS(10, 50);
+    EXPECT_EQ(pace.limitS(20, 50), 0);
+    EXPECT_NEAR(pace.limitS(20.001, 50), 0.019, 1e-9);
+}
+
 }  // namespace
 }  // namespace worldy

@@ -51,6 +51,37 @@ DropTarget targetAt(Point pointer, PanelId panel, const Workspace& workspace) {
     return dropTarget(pointer, panel, layout, rows, workspace, dockingUnitPx);
 }
 
+TEST(Docking, panelsThatWerePutAwayComeBackAsTheyWere) {
+    Workspace workspace = holding(Dock::Left, {PanelId::Lod, PanelId::Chunk});
+    floatPanel(PanelId::Pops, {.x = 0.2}, workspace);
+    const Workspace before = workspace;
+    toggleAllPanels(workspace);
+    const Layout away = layoutIn(1280, 800, workspace);
+    EXPECT_EQ(away.viewport.width, 1280);
+    EXPECT_EQ(away.viewport.height, away.area.height);
+    EXPECT_THAT(floatingPanels(workspace), IsEmpty());
+    EXPECT_FALSE(isVisible(PanelId::Lod, workspace));
+    toggleAllPanels(workspace);
+    EXPECT_EQ(workspace, before);
+}
+
+TEST(Docking, showingOnePanelBringsBackTheOthersThatWerePutAway) {
+    Workspace workspace = holding(Dock::Left, {PanelId::Lod, PanelId::Chunk});
+    toggleAllPanels(workspace);
+    togglePanel(PanelId::Lod, workspace);
+    EXPECT_TRUE(isVisible(PanelId::Lod, workspace));
+    EXPECT_THAT(panelsIn(Dock::Left, workspace), ElementsAre(PanelId::Lod, PanelId::Chunk));
+    toggleAllPanels(workspace);
+    floatPanel(PanelId::Chunk, {}, workspace);
+    EXPECT_TRUE(isVisible(PanelId::Chunk, workspace));
+}
+
+TEST(Docking, withoutAShownPanelTheDefaultOnesAreShown) {
+    Workspace workspace = holding(Dock::Left, {});
+    toggleAllPanels(workspace);
+    EXPECT_EQ(workspace.panels, firstPlaces());
+}
+
 TEST(Docking, aPanelIsDockedBeforeThePositionAndInFront) {
     Workspace workspace = holding(Dock::Left, {PanelId::Lod, PanelId::Chunk, PanelId::Log});
     dockPanel(PanelId::Bake, Dock::Left, 1, workspace);

@@ -515,5 +515,21 @@ TEST_F(PanelControls, aComparisonOverAFlightIsStartedAndCancelled) {
     EXPECT_FALSE(window_.isShown("Measure over the flight"));
 }
 
+TEST_F(PanelControls, theCameraPanelSaysWhichDevicesSteer) {
+    openPlanet();
+    EXPECT_TRUE(click(PanelId::Camera, "Invert up and down").empty());  // grey without a device
+    std::vector<SteeringState> devices = {gamepadState("Xbox Controller", {}, {}), {.name = "Old wheel"}};
+    view_.camera.steering = {devices, 1.5, false};
+    const Commands commands = click(PanelId::Camera, "Invert up and down");
+    ASSERT_EQ(commands.size(), 1u);
+    const auto* const set = commands.front().as<SetSteering>();
+    ASSERT_TRUE(set);
+    EXPECT_TRUE(set->inverted);
+    EXPECT_EQ(set->sensitivity, 1.5);
+    devices.erase(devices.begin());
+    view_.camera.steering = {devices, 1.5, false};
+    EXPECT_TRUE(click(PanelId::Camera, "Invert up and down").empty());
+}
+
 }  // namespace
 }  // namespace worldy::ui

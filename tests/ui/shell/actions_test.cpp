@@ -10,6 +10,7 @@
 #include "tests/support/action_fixture.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/temporary_folder.h"
+#include "ui/shell/gamepad_actions.h"
 #include "ui/shell/help_windows.h"
 
 namespace worldy::ui {
@@ -99,6 +100,39 @@ TEST(Actions, theNextTabIsTheNextShownPanelOfTheDock) {
     EXPECT_EQ(step("previous_tab"), PanelId::Log);
 }
 
+TEST(Actions, theButtonsOfAGamepadHaveActionsOfTheList) {
+    std::set<GamepadButton> buttons;
+    for (const ButtonAction& one : buttonActions()) {
+        EXPECT_TRUE(buttons.insert(one.button).second) << one.name;
+        const Action* const action = actionOf(one.button);
+        ASSERT_TRUE(action);
+        EXPECT_EQ(action->id, one.id);
+        EXPECT_TRUE(action->act) << one.id;
+    }
+    EXPECT_FALSE(actionOf(GamepadButton::Guide));
+}
+
+TEST(Actions, orbitingThePointEndsByTheSameKey) {
+    ActionBench bench;
+    EXPECT_EQ(whyNot(actionNamed("orbit_point"), bench.context()), "No planet is open.");
+    bench.settings.camera.mode = CameraMode::Orbit;
+    EXPECT_EQ(whyNot(actionNamed("orbit_point"), bench.context()), "");
+    actionNamed("orbit_point").act(bench.context());
+    EXPECT_EQ(bench.settings.camera.mode, CameraMode::Fly);
+}
+
+TEST(Actions, theFieldOfViewStaysInItsRange) {
+    ActionBench bench;
+    actionNamed("narrower_view").act(bench.context());
+    EXPECT_NEAR(bench.settings.camera.fovDeg, 60 / 1.1, 1e-9);
+    actionNamed("wider_view").act(bench.context());
+    EXPECT_NEAR(bench.settings.camera.fovDeg, 60, 1e-9);
+    for (int i = 0; i < 50; ++i) actionNamed("narrower_view").act(bench.context());
+    EXPECT_EQ(bench.settings.camera.fovDeg, rangeOf("view.fov_deg").min);
+    for (int i = 0; i < 50; ++i) actionNamed("wider_view").act(bench.context());
+    EXPECT_EQ(bench.settings.camera.fovDeg, rangeOf("view.fov_deg").max);
+}
+
 TEST(Actions, thePanelUsedLastMovesToAnotherDock) {
     ActionBench bench;
     EXPECT_THAT(whyNot(actionNamed("move_panel_left"), bench.context()), HasSubstr("No panel"));
@@ -111,7 +145,7 @@ TEST(Actions, thePanelUsedLastMovesToAnotherDock) {
     EXPECT_FALSE(isShown(bench.workspace, PanelId::Log));
 }
 
-// The table of the manual: what cannot be changed, then the commands with their default keys.
+// The tables of the manual: what cannot be changed, the commands with their default keys, then gamepads and 3-D mice.
 TEST(Actions, theManualListsAllKeys) {
     std::string table = "| key or mouse | action |\n|---|---|\n";
     for (const KeyHelp& help : fixedKeys()) table += "| " + help.keys + " | " + help.meaning + " |\n";
@@ -123,6 +157,8 @@ TEST(Actions, theManualListsAllKeys) {
             table += "| " + keysText(keys[i]) + " | " + action.name + " | `" + action.id + "` | " +
                      action.help + " |\n";
     }
+    table += "\n| gamepad or 3-D mouse | action |\n|---|---|\n";
+    for (const KeyHelp& help : steeringHelp()) table += "| " + help.keys + " | " + help.meaning + " |\n";
     EXPECT_NE(tests::contentOf(WORLDY_SOURCE_DIR "/ui/README.md").find(table), std::string::npos)
         << "expected this table in ui/README.md:\n"
         << table;

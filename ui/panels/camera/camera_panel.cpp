@@ -53,8 +53,9 @@ void motionSection(const EditorView& view, const SettingControls& control, ViewS
     control(settings.camera.fovDeg);
     double factor = view.camera.speedFactor;
     if (slider("Speed", factor, 1.0, 1.0 / 64, 64.0, "%.2f x",
-               "Speed of the movement keys; + and - change it. At 1 x the camera moves 0.6 of its height "
-               "above ground per second.",
+               "Speed of the movement keys and of devices; + and -, and the wheel while a button is held, "
+               "change it. "
+               "At 1 x the camera moves 0.6 of its height above ground per second.",
                ImGuiSliderFlags_Logarithmic))
         commands.push_back(SetSpeedFactor{factor});
 }
@@ -107,7 +108,7 @@ void bookmarkRow(const Bookmark& bookmark, Commands& commands) {
     const float remove = ImGui::CalcTextSize("remove").x + 2 * style.FramePadding.x + style.ItemSpacing.x;
     const float width = ImGui::GetContentRegionAvail().x - (bookmark.shipped ? 0 : remove);
     if (ImGui::Selectable(bookmark.name.c_str(), false, 0, {width, 0}))
-        commands.push_back(MoveCamera{bookmark.pose});
+        commands.push_back(MoveCamera{bookmark.pose, true});
     noteItem(bookmark.name);
     tooltip(fmt::format("{}\naltitude {}, heading {:.0f}°, pitch {:.0f}°{}",
                         placeText(bookmark.pose.latitudeDeg, bookmark.pose.longitudeDeg),
@@ -173,6 +174,60 @@ void flightsSection(const EditorView& view, const ViewSettings& settings, Comman
     if (view.camera.flight) followedFlight(*view.camera.flight, commands);
 }
 
+std::string deviceText(const SteeringState& device) {
+    switch (device.kind) {
+        case SteeringKind::Gamepad:
+            return isUsed(device) ? "gamepad, in use" : "gamepad";
+        case SteeringKind::SpaceMouse:
+            return isUsed(device) ? "3-D mouse, in use" : "3-D mouse";
+        case SteeringKind::Other:
+            break;
+    }
+    return "not supported";
+}
+
+void deviceRows(std::span<const SteeringState> devices) {
+    if (!beginValues("devices")) return;
+    for (const SteeringState& device : devices) {
+        const bool steers = device.kind != SteeringKind::Other;
+        valueRow(
+            device.name.empty() ? "Unnamed device" : device.name.c_str(), deviceText(device),
+            steers
+                ? "It steers the camera while this window has the focus. The list of keys says what its "
+                  "sticks and buttons do."
+                : "This joystick is neither a 3-D mouse nor a gamepad with a layout that GLFW knows, so it "
+                  "is ignored.",
+            isUsed(device) ? &palette().accent : nullptr);
+    }
+    endValues();
+}
+
+// Draws the control of a preference. Returns true if the value has changed.
+template <class Kind, class Value>
+bool preferenceControl(const char* name, Value& value) {
+    Field field = defaultField(name);
+    std::get<Kind>(field.value).value = &value;
+    return settingControl(field);
+}
+
+void steeringSection(const SteeringView& steering, Commands& commands) {
+    if (!section("Steering")) return;
+    if (steering.devices.empty())
+        wrappedText("No gamepad and no 3-D mouse is connected. Keyboard and mouse steer.", palette().dim);
+    else
+        deviceRows(steering.devices);
+    const bool steers = std::ranges::any_of(
+        steering.devices, [](SteeringKind kind) { return kind != SteeringKind::Other; },
+        &SteeringState::kind);
+    beginGrey(!steers, "Connect a gamepad or a 3-D mouse. Worldy finds it while it runs.");
+    double sensitivity = steering.sensitivity;
+    bool inverted = steering.inverted;
+    const bool changed = preferenceControl<Number>("window.steering", sensitivity);
+    if (preferenceControl<Flag>("window.invert_steering", inverted) || changed)
+        commands.push_back(SetSteering{sensitivity, inverted});
+    endGrey();
+}
+
 void observerSection(const SettingControls& control, CameraSettings& camera) {
     if (!section("Observer")) return;
     control(camera.observer);
@@ -194,6 +249,7 @@ void cameraPanel(const EditorView& view, CameraPanelState& state, ViewSettings& 
     poseSection(view, settings, state, commands);
     bookmarksSection(view, state, commands);
     flightsSection(view, settings, commands);
+    steeringSection(view.camera.steering, commands);
     observerSection(control, settings.camera);
 }
 

@@ -87,6 +87,13 @@ std::vector<ValueRow> timeRows(const EditorView& view) {
         {"Drawn because", view.frames.drawnBecause,
          "Why the last frame was drawn. If nothing changes, the window rests until there is input; "
          "View > Idle when still turns that off."});
+    if (view.frames.limit > 0)
+        rows.push_back({"Frame limit", fmt::format("{} FPS", view.frames.limit),
+                        "Frames wait so that there are no more; View > Frame limit."});
+    if (view.frames.fullSpeed)
+        rows.push_back(
+            {"Full speed", "on",
+             "No idling, no frame limit, no wait for the monitor; View > Full speed turns it off."});
     for (const Stage& stage : cpuStages)
         rows.push_back(
             {fmt::format("CPU {}", stage.name), millisecondsText(stage.ms(stats)), stage.explanation});

@@ -72,7 +72,7 @@ void noteRow(const Note& note, const NotesView& notes, bool scrolls, Commands& c
                           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowDoubleClick)) {
         commands.emplace_back(OpenNote{note.id});
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-            commands.emplace_back(MoveCamera{note.camera});
+            commands.emplace_back(MoveCamera{note.camera, true});
     }
     noteItem(fmt::format("Note {}", note.id));
     tooltip([&] { return note.text + "\n\nClick to open, double-click to fly there."; });
@@ -151,7 +151,7 @@ void openNote(const Note& note, NotesPanelState& state, Commands& commands) {
                             distanceText(note.heightM)),
                 palette().dim);
     if (button("Fly there", "Moves the camera to the view in which the note was written.")) {
-        commands.emplace_back(MoveCamera{note.camera});
+        commands.emplace_back(MoveCamera{note.camera, true});
         if (const auto chunk = planet::chunkIdFromString(note.chunk))
             commands.emplace_back(SelectChunk{chunk});
     }

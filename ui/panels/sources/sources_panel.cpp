@@ -176,7 +176,7 @@ void moveSourceLayer(WorldEdit& edit, std::size_t from, std::size_t to) {
 void obeyList(const EditorView& view, const std::vector<LayerRow>& rows, const ListRequest& request,
               SourcesPanelState& state, Commands& commands) {
     if (request.shown && rows[*request.shown].read)
-        commands.emplace_back(MoveCamera{poseOver(*rows[*request.shown].read, view.planet->tree())});
+        commands.emplace_back(MoveCamera{poseOver(*rows[*request.shown].read, view.planet->tree()), true});
     if (!view.sources.edit || (!request.switched && !request.moved)) return;
     WorldEdit edit = *view.sources.edit;
     if (request.switched) edit.layers[*request.switched].on = !edit.layers[*request.switched].on;
