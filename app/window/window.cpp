@@ -17,6 +17,8 @@
 
 #include "app/base/stopwatch.h"
 #include "app/window/input_queue.h"
+#include "planet/gl/device/gpu_clock.h"
+#include "planet/spans/span_recorder.h"
 #include "ui/kit/theme.h"
 #include "ui/shell/text_scale.h"
 
@@ -268,7 +270,7 @@ void Window::startImGui(const WindowConfig& config) {
     ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
     glfw_->listen();
     ImGui_ImplOpenGL3_Init("#version 330 core");
-    panelsTimer_.emplace();
+    panelsTimer_.emplace("panels");
     setTheme(config.theme, config.scale);
 }
 
@@ -359,10 +361,15 @@ void Window::endFrame(const std::function<void()>& drawn) {
     const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
     glClearColor(ground.x, ground.y, ground.z, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    panelsTimer_->begin();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    panelsTimer_->end();
+    planet::gl::followGpuClock();
+    {
+        const planet::SpanScope span("draw panels");
+        panelsTimer_->begin();
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        panelsTimer_->end();
+    }
     drawn();
+    const planet::SpanScope span("present");
     const Stopwatch present;
     glfwSwapBuffers(glfw_->window);
     presentMs_ = present.elapsedMs();

@@ -17,7 +17,7 @@ std::string errorOf(const std::string& line) {
     return read ? "no error" : read.error().message;
 }
 
-Workspace read(const std::string& line) {
+Workspace workspaceFrom(const std::string& line) {
     const planet::Result<Settings> settings = settingsFromText("[panels]\n" + line + "\n", "settings.toml");
     EXPECT_TRUE(settings) << settings.error().message;
     return settings ? settings->workspace : Workspace{};
@@ -28,12 +28,12 @@ const PanelPlace& placeOf(const Workspace& workspace, PanelId panel) {
 }
 
 TEST(PanelText, panelsThatTheOrderLeavesOutFollowIt) {
-    const PanelOrder order = read("order = [\"pops\", \"lod\"]").order;
+    const PanelOrder order = workspaceFrom("order = [\"pops\", \"lod\"]").order;
     EXPECT_EQ(order[0], PanelId::Pops);
     EXPECT_EQ(order[1], PanelId::Lod);
     EXPECT_EQ(order[2], PanelId::Seams);
     EXPECT_EQ(order.back(), panelInfos.back().id);
-    EXPECT_EQ(read("order = []").order, firstOrder());
+    EXPECT_EQ(workspaceFrom("order = []").order, firstOrder());
 }
 
 TEST(PanelText, aWrongOrderIsRefused) {
@@ -45,7 +45,7 @@ TEST(PanelText, aWrongOrderIsRefused) {
 }
 
 TEST(PanelText, floatingPanelsAreReadWithTheirPlaces) {
-    const Workspace workspace = read(
+    const Workspace workspace = workspaceFrom(
         "floating = [{ panel = \"chunk\", x = 0.25, y = 1, width = 500, height = 300 }, { panel = \"log\" "
         "}]");
     EXPECT_TRUE(placeOf(workspace, PanelId::Chunk).floats);
