@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cfloat>
+#include <optional>
 #include <utility>
 
 #include "app/base/process_memory.h"
@@ -18,6 +19,7 @@
 #include "app/settings/camera_text.h"
 #include "planet/planet_tools.h"
 #include "planet/source/terrain.h"
+#include "planet/spans/span_recorder.h"
 #include "ui/kit/theme.h"
 #include "ui/shell/menu_bar.h"
 #include "ui/shell/status_bar.h"
@@ -75,13 +77,16 @@ void Editor::endFlights(Session& session) {
 
 // Scripts that read the item map count frames, so these are drawn all the time.
 void Editor::rest(const Window& window, const Session& session) {
+    frames_.recorder.endFrame();
     frames_.restedS = 0;
     FramePace& pace = frames_.pace;
     pace.noteFrame(frames_.activity.kind, frames_.timeS);
     if (window.waitForInput(0)) pace.noteInput(frames_.timeS);
     if (!settings_.settings.workspace.preferences.idle || !window_.itemMapFile.empty()) return;
-    const Stopwatch watch;
     const double restS = pace.restS(frames_.timeS);
+    if (restS <= 0) return;
+    const planet::SpanScope span("rest");
+    const Stopwatch watch;
     constexpr double lookS = 0.25;  // at what no event announces
     while (watch.elapsedS() < restS && !window.closing() && !shadersHaveChanged(session)) {
         if (!window.waitForInput(std::min(restS - watch.elapsedS(), lookS))) continue;
@@ -92,6 +97,9 @@ void Editor::rest(const Window& window, const Session& session) {
 }
 
 void Editor::runFrame(Window& window, Session& session, double secondsSinceLast) {
+    frames_.recorder.beginFrame(frames_.frame);
+    std::optional<planet::SpanScope> part;  // of the frame, for the timeline
+    part.emplace("input");
     Workspace& workspace = settings_.settings.workspace;
     notices_.timeS = frames_.timeS += secondsSinceLast;
     // Nothing moved while the window rested, and no frame was drawn.
@@ -113,6 +121,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::Commands commands;
     ui::beginExports(window_.exports, commands);
     if (advanceReport(window_.report)) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+    part.emplace("jobs");
     takeDrops(window, window_.panels.bake, bakes_.sources, commands);
     advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
@@ -126,8 +135,10 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
                    notices_.log);
     FrameStats stats;
+    part.emplace("planet");
     if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, movedS, commands);
 
+    part.emplace("panels");
     const Stopwatch panelWatch;
     notices_.log.moveNewLines(window_.logLines);
     const ViewSettings before = settings_.settings.view;
@@ -145,6 +156,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::endExports();
     execute(commands, window, session);
     stats.panelsMs = panelWatch.elapsedMs();
+    part.reset();  // the window has parts of its own
     ui::collectItems(nullptr);
 
     window.endFrame([&] {
@@ -213,12 +225,16 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     placeCameras(camera_, scene, viewport_, settings_.settings);
     const FrameStep step = takeStep(frames_, seconds);
     movePlanet(scene, step);
+    if (step.goesOn)
+        frames_.recorder.noteStep(*scene.planet, instruments_.changes, instruments_.pops.meter,
+                                  frames_.timeS);
     advanceErrorMeter(*scene.planet, frames_.frame, frames_.timeS, instruments_.errors);
     advanceRuler(*scene.planet, frames_.timeS, instruments_.ruler);
     stepCompared(compare_,
                  {scene, settings, camera_.lodView, mainView(camera_, viewport_, settings.camera),
                   frames_.timeS, frames_.frame, camera_.jumped, step.goesOn, paging_.paused},
                  notices_.log);
+    const planet::SpanScope span("pictures");
     const Stopwatch watch;
     drawPictures(scene);
     advanceInstruments(
@@ -259,6 +275,7 @@ void Editor::chooseChunks(Scene& scene, const FrameStep& step) {
                   step.elapsedS);
     else
         stepScene(scene, camera_.lodView, settings, step.elapsedS);
+    const planet::SpanScope span("measure pops");
     instruments_.changes.add(scene.planet->selection(), frames_.timeS);
     measurePops(scene, mainView(camera_, viewport_, settings.camera), frames_.timeS, camera_.jumped, pops);
 }
@@ -318,25 +335,24 @@ ui::EditorView Editor::view(Session& session) {
     const ViewSettings& settings = settings_.settings.view;
     const planet::View& view = viewport_.main.view;
     const Scene* scene = camera_.rig ? shownScene(session) : nullptr;
-    return {
-        .planet = scene ? scene->planet.get() : nullptr,
-        .frames = {frames_.stats, frames_.history, frames_.timeS, frames_.paused, frames_.activity.reason},
-        .log = window_.logLines,
-        .pagingPaused = paging_.paused,
-        .focus = chunks_.focus,
-        .pointedM = chunks_.pointedM,
-        .data = dataViewOf(session, files_.recentShown),
-        .bake = bakeViewOf(bakes_, session),
-        .camera = cameraViewOf(camera_, scene, view),
-        .settings = settingsViewOf(settings_),
-        .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
-        .recording = recordingViewOf(recording_, settings),
-        .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
-        .sweep = sweepViewOf(sweep_),
-        .layers = layersViewOf(layers_, scene, settings.surface.layers),
-        .sources = sourcesViewOf(bakes_.sources, session),
-        .trace = traceViewOf(files_.trace),
-        .notes = notesViewOf(files_.notes)};
+    return {.planet = scene ? scene->planet.get() : nullptr,
+            .frames = framesViewOf(frames_),
+            .log = window_.logLines,
+            .pagingPaused = paging_.paused,
+            .focus = chunks_.focus,
+            .pointedM = chunks_.pointedM,
+            .data = dataViewOf(session, files_.recentShown),
+            .bake = bakeViewOf(bakes_, session),
+            .camera = cameraViewOf(camera_, scene, view),
+            .settings = settingsViewOf(settings_),
+            .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
+            .recording = recordingViewOf(recording_, settings),
+            .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
+            .sweep = sweepViewOf(sweep_),
+            .layers = layersViewOf(layers_, scene, settings.surface.layers),
+            .sources = sourcesViewOf(bakes_.sources, session),
+            .trace = traceViewOf(files_.trace),
+            .notes = notesViewOf(files_.notes)};
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {

@@ -97,7 +97,10 @@ struct PauseFrames {  // stops motion, selection and loading, except by StepFram
     bool paused = false;
 };
 struct StepFrame {};
-using FrameCommand = std::variant<PauseFrames, StepFrame>;
+struct RecordTimeline {  // what was recorded stays
+    bool on = true;
+};
+using FrameCommand = std::variant<PauseFrames, StepFrame, RecordTimeline>;
 
 // Files.
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot

@@ -12,6 +12,7 @@
 #include "app/base/log_lines.h"
 #include "app/data/layout_library.h"
 #include "app/data/worlds.h"
+#include "app/measure/frame_timeline.h"
 #include "app/scene/frame_stats.h"
 #include "app/scene/overlay_lines.h"
 #include "app/settings/setting_difference.h"
@@ -48,6 +49,9 @@ struct FramesView {
     double timeS = 0;
     bool paused = false;
     const char* drawnBecause = "";  // completes "Frames are drawn because ..."
+    const FrameTimeline* timeline = nullptr;
+    bool recordsTimeline = true;
+    std::optional<std::int64_t> gpuClockErrorNs{};  // of the GPU's spans; unset: the GPU has no clock
 };
 
 struct DataView {
