@@ -14,6 +14,7 @@
 #include "planet/base/try.h"
 #include "planet/planet_state.h"
 #include "planet/planet_tools.h"
+#include "planet/spans/span_recorder.h"
 
 namespace planet {
 
@@ -162,21 +163,28 @@ void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upl
     views.resize(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) views[i].input = inputs[i];
 
-    Stopwatch stage;
-    if (settings.time != PagingTime::Clock) pager->advance(elapsedS);
-    if (normalRoots.follow(normals, run)) selectAgain();
-    dropYielding();
-    uploadFinished(upload);
-    lastStep.times.uploadMs = stage.elapsedMs();
-
-    stage = {};
-    select(fadeElapsedS);
-    lastStep.times.selectMs = stage.elapsedMs();
-
-    stage = {};
-    page();
-    count();
-    lastStep.times.pagingMs = stage.elapsedMs();
+    {
+        const SpanScope span("upload");
+        const Stopwatch stage;
+        if (settings.time != PagingTime::Clock) pager->advance(elapsedS);
+        if (normalRoots.follow(normals, run)) selectAgain();
+        dropYielding();
+        uploadFinished(upload);
+        lastStep.times.uploadMs = stage.elapsedMs();
+    }
+    {
+        const SpanScope span("select");
+        const Stopwatch stage;
+        select(fadeElapsedS);
+        lastStep.times.selectMs = stage.elapsedMs();
+    }
+    {
+        const SpanScope span("paging");
+        const Stopwatch stage;
+        page();
+        count();
+        lastStep.times.pagingMs = stage.elapsedMs();
+    }
 }
 
 bool Planet::settle(const View& lodView, const LodSettings& settings, const UploadChunk& upload,

@@ -6,6 +6,7 @@
 
 #include "planet/planet_state.h"
 #include "planet/select/lod_select.h"
+#include "planet/spans/span_recorder.h"
 
 namespace planet {
 
@@ -99,6 +100,7 @@ void PlanetState::uploadFinished(const UploadChunk& upload) {
     do {
         std::optional<FinishedLoad> load = pager->takeFinished();
         if (!load) return;
+        const SpanScope span("upload block", load->request.block());
         paging.loadSeconds += load->seconds;
         of(load->request.kind).finish(std::move(*load), run, upload);
     } while (settings.time != PagingTime::Clock || uploading.elapsedMs() < settings.uploadLimitMs);

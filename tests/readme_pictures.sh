@@ -160,6 +160,19 @@ picture_frame() {
     xdotool keydown a; sleep 0.5; xdotool keyup a; settle; aside
     dock frame
 }
+picture_timeline() {
+    start < <(above_india; window 1820 620; only timeline 1000; echo 'lod.tau_px = 0.4')
+    settle
+    point viewport/picture; xdotool click --repeat 10 --delay 150 4; sleep 1
+    click timeline/Hold
+    # A frame with arrivals.
+    for share in 0.9 0.85 0.8 0.75 0.7 0.65 0.6 0.55 0.5 0.45 0.4 0.35 0.3 0.25; do
+        click timeline/Lanes $share 0.05
+        shown "timeline/Change 3" && break
+    done
+    aside
+    dock timeline
+}
 picture_bake() {
     start < <(himalaya; window 1400 900; only bake 330)
     settle; choose "bake/Chunk size" "65 vertices"; aside
@@ -354,7 +367,7 @@ for name in whole_earth sunset_limb himalaya coast ridge ridged_world andes ande
 done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
-    chunk paging frame bake sources log true_error cracks pops precision ruler flight sweep trace_cesium trace trace_nodes \
+    chunk paging frame timeline bake sources log true_error cracks pops precision ruler flight sweep trace_cesium trace trace_nodes \
     trace_what_if notes"
 any=no
 for name in $windows; do asked $name && any=yes; done

@@ -7,6 +7,7 @@
 #include <array>
 #include <cfloat>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "app/settings/camera_text.h"
 #include "planet/planet_tools.h"
 #include "planet/source/terrain.h"
+#include "planet/spans/span_recorder.h"
 #include "ui/kit/theme.h"
 #include "ui/shell/menu_bar.h"
 #include "ui/shell/status_bar.h"
@@ -85,10 +87,13 @@ int Editor::frameLimit() const {
 }
 
 void Editor::rest(const Window& window, const Session& session) {
+    frames_.recorder.endFrame();
     restWhileStill(window, session);
     const double limitS = frames_.pace.limitS(frames_.clock.elapsedS(), frameLimit());
     // Things move on during this wait, so it is part of the frame's time.
-    if (limitS > 0) std::this_thread::sleep_for(std::chrono::duration<double>(limitS));
+    if (limitS <= 0) return;
+    const planet::SpanScope span("frame limit");
+    std::this_thread::sleep_for(std::chrono::duration<double>(limitS));
 }
 
 void Editor::restWhileStill(const Window& window, const Session& session) {
@@ -100,8 +105,10 @@ void Editor::restWhileStill(const Window& window, const Session& session) {
     // A script asks for the frames that it waits for, so that the processor is free for it between them.
     const bool isScripted = !window_.itemMapFile.empty();
     const auto frameIsAsked = [&] { return isScripted && frames_.frame < askedFrame(window_.itemMapFile); };
-    const Stopwatch watch;
     const double restS = isScripted ? scriptedRestS(frames_.activity.kind) : pace.restS(frames_.timeS);
+    if (restS <= 0) return;
+    const planet::SpanScope span("rest");
+    const Stopwatch watch;
     // At what no event announces. Devices that steer must be read often.
     const double lookS = isScripted ? 0.005 : camera_.devices.empty() ? 0.25 : 0.02;
     while (watch.elapsedS() < restS && !window.closing() && !shadersHaveChanged(session) && !frameIsAsked()) {
@@ -114,6 +121,9 @@ void Editor::restWhileStill(const Window& window, const Session& session) {
 }
 
 void Editor::runFrame(Window& window, Session& session, double secondsSinceLast) {
+    frames_.recorder.beginFrame(frames_.frame);
+    std::optional<planet::SpanScope> part;  // of the frame, for the timeline
+    part.emplace("input");
     Workspace& workspace = settings_.settings.workspace;
     notices_.timeS = frames_.timeS += secondsSinceLast;
     // Nothing moved while the window rested, and no frame was drawn.
@@ -136,6 +146,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::Commands commands;
     ui::beginExports(window_.exports, commands);
     if (advanceReport(window_.report)) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+    part.emplace("jobs");
     takeDrops(window, window_.panels.bake, bakes_.sources, commands);
     advanceSession(session, settings_.settings.view, notices_.log);
     advanceFiles(files_, session, notices_);
@@ -149,8 +160,10 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
                    notices_.log);
     FrameStats stats;
+    part.emplace("planet");
     if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, movedS, commands);
 
+    part.emplace("panels");
     const Stopwatch panelWatch;
     notices_.log.moveNewLines(window_.logLines);
     const ViewSettings before = settings_.settings.view;
@@ -174,6 +187,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     ui::endExports();
     execute(commands, window, session);
     stats.panelsMs = panelWatch.elapsedMs();
+    part.reset();  // the window has parts of its own
     ui::collectItems(nullptr);
 
     window.endFrame([&] {
@@ -259,12 +273,16 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     placeCameras(camera_, scene, viewport_, settings_.settings);
     const FrameStep step = takeStep(frames_, seconds);
     movePlanet(scene, step);
+    if (step.goesOn)
+        frames_.recorder.noteStep(*scene.planet, instruments_.changes, instruments_.pops.meter,
+                                  frames_.timeS);
     advanceErrorMeter(*scene.planet, frames_.frame, frames_.timeS, instruments_.errors);
     advanceRuler(*scene.planet, frames_.timeS, instruments_.ruler);
     stepCompared(compare_,
                  {scene, settings, camera_.lodView, mainView(camera_, viewport_, settings.camera),
                   frames_.timeS, frames_.frame, camera_.jumped, step.goesOn, paging_.paused},
                  notices_.log);
+    const planet::SpanScope span("pictures");
     const Stopwatch watch;
     drawPictures(scene);
     advanceInstruments(
@@ -304,6 +322,7 @@ void Editor::chooseChunks(Scene& scene, const FrameStep& step) {
                   step.elapsedS);
     else
         stepScene(scene, camera_.lodView, settings, step.elapsedS);
+    const planet::SpanScope span("measure pops");
     instruments_.changes.add(scene.planet->selection(), frames_.timeS);
     measurePops(scene, mainView(camera_, viewport_, settings.camera), frames_.timeS, camera_.jumped, pops);
 }
@@ -364,8 +383,7 @@ ui::EditorView Editor::view(Session& session) {
     const planet::View& view = viewport_.main.view;
     const Scene* scene = camera_.rig ? shownScene(session) : nullptr;
     return {.planet = scene ? scene->planet.get() : nullptr,
-            .frames = {frames_.stats, frames_.history, frames_.timeS, frames_.paused, frames_.activity.reason,
-                       frames_.fullSpeed, frameLimit()},
+            .frames = framesViewOf(frames_, frameLimit()),
             .log = window_.logLines,
             .pagingPaused = paging_.paused,
             .focus = chunks_.focus,

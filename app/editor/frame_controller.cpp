@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/editor/overloaded.h"
+#include "planet/gl/device/gpu_clock.h"
 
 namespace worldy {
 
@@ -17,6 +18,7 @@ void execute(FrameController& frames, const ui::FrameCommand& command) {
                    [&](const ui::PauseFrames& pause) { frames.paused = pause.paused; },
                    [&](const ui::StepFrame&) { frames.paused = frames.stepOnce = true; },
                    [&](const ui::DrawAtFullSpeed& draw) { frames.fullSpeed = draw.on; },
+                   [&](const ui::RecordTimeline& record) { frames.recorder.turn(record.on); },
                },
                command);
 }
@@ -26,6 +28,20 @@ FrameStep takeStep(FrameController& frames, double secondsSinceLast) {
     if (!frames.paused) return {true, secondsSinceLast, std::nullopt};
     constexpr double stepS = 1.0 / 60;
     return {single, stepS, stepS};
+}
+
+ui::FramesView framesViewOf(const FrameController& frames, int frameLimit) {
+    const auto& gpuClock = planet::gl::gpuClock();
+    return {.stats = frames.stats,
+            .history = frames.history,
+            .timeS = frames.timeS,
+            .paused = frames.paused,
+            .drawnBecause = frames.activity.reason,
+            .fullSpeed = frames.fullSpeed,
+            .limit = frameLimit,
+            .timeline = &frames.recorder.timeline(),
+            .recordsTimeline = frames.recorder.isOn(),
+            .gpuClockErrorNs = gpuClock ? std::optional(gpuClock->errorNs) : std::nullopt};
 }
 
 void finishFrame(FrameController& frames, const FrameStats& stats) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/base/stopwatch.h"
+#include "app/measure/timeline_recorder.h"
 #include "app/scene/frame_stats.h"
 #include "app/window/frame_pace.h"
 #include "planet/sphere/view.h"
@@ -31,6 +32,7 @@ struct FrameController {
     planet::View lastObserverView;
     std::shared_ptr<const int>
         lastScene;  // identity of the last frame's scene, to detect that another is shown
+    TimelineRecorder recorder;
 };
 
 void execute(FrameController& frames, const ui::FrameCommand& command);
@@ -43,6 +45,9 @@ struct FrameStep {
 };
 // Returns the frame's step and clears a pending single step. secondsSinceLast: >= 0.
 FrameStep takeStep(FrameController& frames, double secondsSinceLast);
+
+// Returns what panels may read.
+ui::FramesView framesViewOf(const FrameController& frames, int frameLimit);
 
 // Stores the statistics at the end of a frame.
 void finishFrame(FrameController& frames, const FrameStats& stats);

@@ -11,6 +11,7 @@
 #include "app/scene/overlay_lines.h"
 #include "app/scene/scene_settings.h"
 #include "app/settings/layer_file.h"
+#include "planet/spans/span_recorder.h"
 
 namespace worldy {
 
@@ -156,6 +157,7 @@ void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings&
                std::span<const planet::DrawItem> items, bool stitched,
                std::span<const planet::gl::ChunkTint> tints, planet::gl::ShaderWait wait) {
     const ViewSettings settings = afforded(scene, asked);
+    const planet::SpanScope span("draw");
     const Stopwatch watch;
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;

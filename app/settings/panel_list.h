@@ -36,7 +36,8 @@ enum class PanelId : std::uint8_t {
     TraceFindings,
     TraceWhatIf,
     Ruler,
-    Notes
+    Notes,
+    Timeline
 };
 
 // Second: a window of the operating system for a second monitor, which is open while it has panels.
@@ -81,6 +82,7 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::TraceWhatIf, "What if", "trace_what_if", "Ctrl+Shift+W", Dock::Bottom, false},
     {PanelId::Ruler, "Ruler", "ruler", "Ctrl+Shift+R", Dock::Left, false},
     {PanelId::Notes, "Notes", "notes", "Ctrl+M", Dock::Left, false},
+    {PanelId::Timeline, "Timeline", "timeline", "Ctrl+Shift+T", Dock::Bottom, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

@@ -536,7 +536,8 @@ void addWindow(Fields& fields, Settings& s) {
           "programs.",
           Integer{&workspace.preferences.frameLimit, {0, 1000, ""}}},
          {"window", "resume", "Go on with the last session",
-          "Without a file on the command line, opens what the last session showed: the planet, the camera, the "
+          "Without a file on the command line, opens what the last session showed: the planet, the camera, "
+          "the "
           "trace, the comparison and the ruler.",
           Flag{&workspace.preferences.resume}},
          {"window", "glide", "Glide to places",

@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui_internal.h>
 
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/widgets.h"
 
 namespace worldy {
@@ -45,7 +46,7 @@ KeyInput readKeys() {
                  .up = axis(GLFW_KEY_E, GLFW_KEY_Q),
                  .lookRight = axis(GLFW_KEY_L, GLFW_KEY_J),
                  .lookUp = axis(GLFW_KEY_I, GLFW_KEY_K)};
-    keys.speedSteps = speedSteps();
+    if (!ui::plotTakesKeys()) keys.speedSteps = speedSteps();
     return keys;
 }
 

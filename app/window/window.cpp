@@ -17,6 +17,8 @@
 
 #include "app/base/stopwatch.h"
 #include "app/window/input_queue.h"
+#include "planet/gl/device/gpu_clock.h"
+#include "planet/spans/span_recorder.h"
 #include "ui/kit/theme.h"
 #include "ui/shell/text_scale.h"
 
@@ -343,7 +345,7 @@ void Window::startImGui(const WindowConfig& config) {
     ImGui_ImplGlfw_InitForOpenGL(glfw_->window, false);
     glfw_->listenTo(glfw_->window);
     ImGui_ImplOpenGL3_Init("#version 330 core");
-    panelsTimer_.emplace();
+    panelsTimer_.emplace("panels");
     setTheme(config.theme, config.scale);
 }
 
@@ -418,6 +420,7 @@ bool Window::takeSecondClosed() const {
 // vertex array, which is not, for each drawing.
 void Window::drawSecond() const {
     if (!glfw_->second) return;
+    const planet::SpanScope span("second window");
     const ui::Rect rect = secondRect();
     int widthPx = 0, heightPx = 0;
     glfwGetFramebufferSize(glfw_->second, &widthPx, &heightPx);
@@ -504,10 +507,15 @@ void Window::endFrame(const std::function<void()>& drawn) {
     glfwGetFramebufferSize(glfw_->window, &widthPx, &heightPx);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     clearForPanels(widthPx, heightPx);
-    panelsTimer_->begin();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    panelsTimer_->end();
+    planet::gl::followGpuClock();
+    {
+        const planet::SpanScope span("draw panels");
+        panelsTimer_->begin();
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        panelsTimer_->end();
+    }
     drawn();
+    const planet::SpanScope span("present");
     const Stopwatch present;
     glfwSwapBuffers(glfw_->window);
     presentMs_ = present.elapsedMs();

@@ -13,6 +13,7 @@
 #include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
 #include "planet/format/height_codec.h"
+#include "planet/spans/span_recorder.h"
 
 namespace planet {
 
@@ -127,6 +128,7 @@ Result<std::vector<std::byte>> ChunkFile::readBlock(const BlockId& id, BlockLoca
             "bake it again",
             name_, nameOf(id), location.size, location.offset, sizeBytes_));
     }
+    const SpanScope span("read", id);
     std::vector<std::byte> block(location.size);
     TRY(readAt_(location.offset, block));
     return block;
@@ -179,6 +181,7 @@ Result<std::array<ChunkData, quadrantCount>> ChunkFile::readChildren(const Chunk
     assert(parent.level < deepestLevelOf(info_.shape));
     TRY_ASSIGN(const auto block,
                readContent(parent, false, location, {1 + checksumBytes, largestBlockBytes(info_.shape)}));
+    const SpanScope span("decode", parent);
     const std::span content(block);
     const bool aboveDeepest = parent.level + 1 < deepestLevelOf(info_.shape);
     const auto index = indexFrom(content, quadrantCount, aboveDeepest, location.offset);
@@ -283,6 +286,7 @@ Result<std::vector<TileData>> ChunkFile::readColourBlock(const ChunkId& block, B
     const std::size_t least = entriesBytes + checksumBytes;
     const std::size_t most = least + tiles.size() * largestPackedColourTile(pyramid.format);
     TRY_ASSIGN(const auto bytes, readContent(id, tiles[0].level == 0, location, {least, most}));
+    const SpanScope span("decode", id);
     const std::span content(bytes);
     std::vector<TileData> read;
     std::span<const std::byte> packed = content.subspan(entriesBytes);

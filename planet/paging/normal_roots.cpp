@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "planet/spans/span_recorder.h"
+
 namespace planet {
 
 void NormalRoots::set(std::uint32_t capacity, std::size_t heightBytes, const std::string& problem,
@@ -25,6 +27,8 @@ bool NormalRoots::follow(TilePaging& normals, PagingRun& run) {
         return true;
     }
     coming_ = std::async(std::launch::async, [deriver = deriver_.get(), id = normals.roots[next_++].id] {
+        nameSpanThread("normals of faces");
+        const SpanScope span("derive", BlockId(id, BlockKind::Normals));
         return readRoot([&] { return deriver->tile(id); });
     });
     return false;

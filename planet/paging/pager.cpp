@@ -7,6 +7,8 @@
 #include <exception>
 #include <utility>
 
+#include "planet/spans/span_recorder.h"
+
 namespace planet {
 
 namespace {
@@ -14,6 +16,7 @@ namespace {
 // Loads a block and turns exceptions into Errors: reading may run out of memory, and the caller's code may
 // throw.
 Result<LoadedBlock> loadSafely(const BlockLoaders& load, const PagingRequest& request) {
+    const SpanScope span(request.kind == BlockKind::Normals ? "derive" : "load", request.block());
     const auto asLoaded = [](auto&& block) { return LoadedBlock(std::forward<decltype(block)>(block)); };
     try {
         if (request.kind == BlockKind::Colours)
@@ -98,6 +101,7 @@ void Pager::forgetAttempts() {
 }
 
 void Pager::runLoader(std::size_t index, const std::stop_token& stop) {
+    nameSpanThread("loader", static_cast<int>(index) + 1);
     Lock lock(mutex_);
     while (true) {
         workArrived_.wait(
@@ -134,7 +138,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     PagingRequest request = takeNext();
     const Reading reading{request, Clock::now()};
     loaders_[index].reading = reading;
-    const bool fails = waitForInjectedDelay(reading, stop, lock);
+    const bool fails = isTrouble(badDisk_) && waitForInjectedDelay(reading, stop, lock);
     Result<LoadedBlock> block;
     if (fails) {
         block = failedOnPurpose(request.block(), badDisk_.seed);
@@ -154,6 +158,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
 // Waits as long as the injected fault says, even if the settings change meanwhile. Returns true if the read
 // fails.
 bool Pager::waitForInjectedDelay(const Reading& reading, const std::stop_token& stop, Lock& lock) {
+    const SpanScope span("injected delay", reading.request.block());
     const std::uint64_t epoch = epoch_;
     while (isTrouble(badDisk_) && !stop.stop_requested() && epoch == epoch_) {
         const DiskFault fault = nextFault(reading.request);

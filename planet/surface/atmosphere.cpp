@@ -85,10 +85,10 @@ AirSpan spanOf(const Atmosphere& air, double heightKm, double rise, double lengt
 }
 
 // The steps along a span: shortest at the ray's lowest point, and longer with the distance from it.
-struct Steps {
+struct PathSteps {
     double lowestKm, from, width;
 
-    Steps(const AirSpan& span, int count) : lowestKm(std::clamp(-span.along, 0.0, span.lengthKm)) {
+    PathSteps(const AirSpan& span, int count) : lowestKm(std::clamp(-span.along, 0.0, span.lengthKm)) {
         from = -std::sqrt(lowestKm);
         width = (std::sqrt(span.lengthKm - lowestKm) - from) / count;
     }
@@ -208,7 +208,7 @@ SecondScattering secondAlong(const AirTables& tables, double height, double rise
                              double sunAlongRay) {
     const Atmosphere& air = tables.air;
     const AirSpan span = spanOf(air, height, rise, std::numeric_limits<double>::infinity());
-    const Steps steps(span, glowSteps);
+    const PathSteps steps(span, glowSteps);
     SecondScattering sum;
     glm::dvec3 through(1);
     const double radius = airRadiusKm + span.heightKm;
@@ -316,7 +316,7 @@ Atmosphere atmosphereOf(const AirSettings& settings) {
 glm::dvec3 transmittanceBySteps(const Atmosphere& air, double heightKm, double rise, int steps) {
     // A ray that would meet the ground follows it at height 0.
     const AirSpan span = spanOf(air, heightKm, rise, 1e9);
-    const Steps places(span, steps);
+    const PathSteps places(span, steps);
     const double radius = airRadiusKm + span.heightKm;
     glm::dvec3 thickness(0);
     for (int i = 0; i < steps; ++i) {
@@ -358,7 +358,7 @@ AirLight lightAlong(const AirTables& tables, const AirRay& ray, int stepCount) {
     const double radius = airRadiusKm + span.heightKm;
     const double rayleigh = rayleighPhase(ray.sunAlongRay);
     const double haze = hazePhase(air.forward, ray.sunAlongRay);
-    const Steps steps(span, stepCount);
+    const PathSteps steps(span, stepCount);
     for (int i = 0; i < stepCount; ++i) {
         const double distance = steps.at(i + 0.5);
         const double depth = steps.at(i + 1) - steps.at(i);

@@ -2,10 +2,12 @@
 // view that the application hands to panels.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,12 +49,17 @@ public:
             stats_.drawCpuMs = 2 + frame % 3;
             stats_.panelsMs = 1;
             history_.push_back({timeS_, stats_});
+            recordFrame();
         }
     }
 
     ui::EditorView view() const {
         ui::EditorView view{.planet = planet_.get(),
-                            .frames = {stats_, history_, timeS_},
+                            .frames = {.stats = stats_,
+                                       .history = history_,
+                                       .timeS = timeS_,
+                                       .timeline = &timeline_,
+                                       .gpuClockErrorNs = 400},
                             .log = log_,
                             .instruments = {.changes = changes_}};
         view.camera.lodView = view.camera.renderView = view_;
@@ -76,6 +83,8 @@ public:
         }
         return view;
     }
+
+    const FrameTimeline& timeline() const { return timeline_; }
 
     // Writes a trace of another engine and selects in it again with some tolerances.
     void trace(const std::filesystem::path& file) {
@@ -123,12 +132,47 @@ public:
     };
 
 private:
+    // Adds a frame of 16.7 ms to the timeline: a span of each stage, one of the GPU, and a load of each of two loaders. In each
+    // frame a chunk splits, and its children came.
+    void recordFrame() {
+        constexpr std::int64_t frameNs = 16'700'000, stepNs = 2'000'000;
+        const std::int64_t beginNs = 1'000'000'000 + frameNs * static_cast<std::int64_t>(history_.size());
+        const planet::ChunkId chunk = planet_->selection().draw.front().id;
+        timeline_.beginFrame(history_.size(), beginNs, beginNs);
+        timeline_.add(ChunkChangeKind::Came, chunk, 2.5);
+        timeline_.add(ChunkChangeKind::Split, chunk);
+        timeline_.add(ChunkChangeKind::Popped, chunk, 1.25);
+        const auto span = [&](const char* name, std::int64_t fromNs, std::int64_t toNs, bool loads = false) {
+            planet::Span made;
+            made.name = name;
+            made.beginNs = beginNs + fromNs;
+            made.endNs = beginNs + toNs;
+            made.block = chunk;
+            made.hasBlock = loads;
+            return made;
+        };
+        std::vector<planet::Span> main;
+        std::int64_t atNs = 0;
+        for (const char* stage : {"input", "jobs", "planet", "panels", "draw panels", "present"}) {
+            main.push_back(span(stage, atNs, atNs + stepNs));
+            atNs += stepNs;
+        }
+        timeline_.add(planet::SpanBatch{0, "main", main, 0});
+        const std::array gpu = {span("chunks", stepNs, 3 * stepNs)};
+        timeline_.add(planet::SpanBatch{1, "GPU", gpu, 0});
+        for (std::size_t loader = 1; loader <= 2; ++loader) {
+            const std::array load = {span("load", 0, 2'500'000, true)};
+            timeline_.add(planet::SpanBatch{1 + loader, "loader " + std::to_string(loader), load, 0});
+        }
+    }
+
     std::unique_ptr<planet::Planet> planet_;
     planet::CameraPose pose_{.latitudeDeg = 28, .longitudeDeg = 86, .altitudeM = 4e6};
     planet::View view_;
     planet::LodChanges changes_;
     FrameStats stats_;
     std::deque<ui::FrameSample> history_;
+    FrameTimeline timeline_;
     std::optional<TraceWhatIfResult> traced_;
     std::vector<ui::Bookmark> bookmarks_{{"Himalaya", {}, true}, {"My ridge", {}, false}};
     double timeS_ = 0;

@@ -111,7 +111,10 @@ struct StepFrame {};
 struct DrawAtFullSpeed {  // without idling, a frame limit and waiting for the monitor, until it is turned off
     bool on = false;
 };
-using FrameCommand = std::variant<PauseFrames, StepFrame, DrawAtFullSpeed>;
+struct RecordTimeline {  // what was recorded stays
+    bool on = true;
+};
+using FrameCommand = std::variant<PauseFrames, StepFrame, DrawAtFullSpeed, RecordTimeline>;
 
 // Files.
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot

@@ -12,6 +12,7 @@
 #include "app/base/log_lines.h"
 #include "app/data/layout_library.h"
 #include "app/data/worlds.h"
+#include "app/measure/frame_timeline.h"
 #include "app/scene/frame_stats.h"
 #include "app/scene/overlay_lines.h"
 #include "app/scene/steering.h"
@@ -51,6 +52,9 @@ struct FramesView {
     const char* drawnBecause = "";  // completes "Frames are drawn because ..."
     bool fullSpeed = false;         // DrawAtFullSpeed
     int limit = 0;                  // most frames a second now; 0: none
+    const FrameTimeline* timeline = nullptr;
+    bool recordsTimeline = true;
+    std::optional<std::int64_t> gpuClockErrorNs{};  // of the GPU's spans; unset: the GPU has no clock
 };
 
 struct DataView {

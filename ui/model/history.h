@@ -1,7 +1,6 @@
 // The frames of the last seconds as parallel vectors of times and values for plots.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <vector>
@@ -27,13 +26,6 @@ std::vector<Value> historyValues(const std::deque<FrameSample>& history, const V
     values.reserve(history.size());
     for (const FrameSample& sample : history) values.push_back(static_cast<Value>(valueOf(sample.stats)));
     return values;
-}
-
-// Returns 0 if there are no frames.
-inline double longestFrameMs(const std::deque<FrameSample>& history) {
-    double longestMs = 0;
-    for (const FrameSample& sample : history) longestMs = std::max(longestMs, sample.stats.frameMs);
-    return longestMs;
 }
 
 }  // namespace worldy::ui

@@ -63,6 +63,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return rulerPanel(view, commands);
         case PanelId::Notes:
             return notesPanel(view, states.notes, settings, commands);
+        case PanelId::Timeline:
+            return timelinePanel(view, states.timeline, commands);
     }
 }
 

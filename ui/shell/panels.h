@@ -9,6 +9,7 @@
 #include "ui/panels/compare/compare_panel.h"
 #include "ui/panels/flight/flight_panel.h"
 #include "ui/panels/frame/frame_panel.h"
+#include "ui/panels/frame/timeline_panel.h"
 #include "ui/panels/light/light_panel.h"
 #include "ui/panels/lod/chunk_panel.h"
 #include "ui/panels/lod/lod_panel.h"
@@ -57,6 +58,7 @@ struct PanelStates {
     TraceFindingsPanelState traceFindings;
     WhatIfPanelState traceWhatIf;
     NotesPanelState notes;
+    TimelinePanelState timeline;
 };
 
 // Fills the current window with a panel.

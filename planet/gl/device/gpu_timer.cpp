@@ -1,8 +1,10 @@
 #include "planet/gl/device/gpu_timer.h"
 
+#include "planet/gl/device/gpu_clock.h"
+
 namespace planet::gl {
 
-GpuTimer::GpuTimer() {
+GpuTimer::GpuTimer(const char* name) : name_(name) {
     GLint bits = 0;
     glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
     available_ = bits > 0;
@@ -38,6 +40,7 @@ double GpuTimer::lastMs() {
         glGetQueryObjectui64v(measurement.start.name(), GL_QUERY_RESULT, &startNs);
         glGetQueryObjectui64v(measurement.stop.name(), GL_QUERY_RESULT, &stopNs);
         lastMs_ = static_cast<double>(stopNs - startNs) * 1e-6;
+        recordGpuSpan(name_, startNs, stopNs);
         measurement.pending = false;
         oldest_ = (oldest_ + 1) % ring_.size();
     }

@@ -1,5 +1,5 @@
 // Measures the GPU time between begin() and end() without waiting for the GPU, so results are some frames
-// old. Uses timestamps rather than an elapsed-time query, so that a caller's own timer may enclose it.
+// old. While spans are recorded, each measurement is also one in the lane of the GPU (gpu_clock.h). Uses timestamps rather than an elapsed-time query, so that a caller's own timer may enclose it.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@ namespace planet::gl {
 
 class GpuTimer {
 public:
-    GpuTimer();
+    // name: of its spans, a string literal.
+    explicit GpuTimer(const char* name);
     void begin();
     void end();
     double lastMs();  // of the last finished measurement; 0 before the first, or without timestamps
@@ -21,6 +22,7 @@ private:
         Query start, stop;
         bool pending = false;
     };
+    const char* name_;
     std::array<Measurement, 4> ring_;
     std::size_t current_ = 0;
     std::size_t oldest_ = 0;

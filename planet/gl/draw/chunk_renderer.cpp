@@ -142,7 +142,7 @@ struct ChunkRenderer::State {
     int shadowsAskedPx = 0;             // last requested map size; 0: no shadows
     std::vector<std::string> problems;  // not yet reported
     FrameUniforms uniforms{};           // as last uploaded
-    GpuTimer chunksTimer, skyTimer, shadowsTimer;
+    GpuTimer chunksTimer{"chunks"}, skyTimer{"sky"}, shadowsTimer{"shadows"};
     std::uint32_t uploads = 0;  // since the last draw
 
     State(const RendererConfig& from, HeightPool heightPool, LayerTextures checker);

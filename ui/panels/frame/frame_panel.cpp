@@ -9,6 +9,7 @@
 
 #include "app/base/glossary.h"
 #include "app/base/text.h"
+#include "app/measure/frame_times.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/plots.h"
@@ -74,6 +75,8 @@ void pauseControls(const EditorView& view, Commands& commands) {
 
 std::vector<ValueRow> timeRows(const EditorView& view) {
     const FrameStats& stats = view.frames.stats;
+    const FrameTimes lastTimes = frameTimesOf(
+        historyValues<double>(view.frames.history, [](const FrameStats& s) { return s.frameMs; }));
     const double perSecond = stats.frameMs > 0 ? 1000 / stats.frameMs : 0;
     std::vector<ValueRow> rows = {
         {"Frame rate", fmt::format("{:.0f} FPS", perSecond), "Reciprocal of the last frame time."},
@@ -81,7 +84,15 @@ std::vector<ValueRow> timeRows(const EditorView& view) {
          "Time from the start of one frame to the next, including the wait for the monitor, but not the rest "
          "while nothing "
          "changes."},
-        {"Longest, last 10 s", millisecondsText(longestFrameMs(view.frames.history)),
+        {"p50, last 10 s", millisecondsText(lastTimes.p50Ms),
+         "Half of the frames of the last 10 seconds took at most this. Percentiles are by nearest rank, so "
+         "each is "
+         "the time of a frame. The Timeline panel tells them of any range."},
+        {"p95, last 10 s", millisecondsText(lastTimes.p95Ms),
+         "95 % of the frames of the last 10 seconds took at most this."},
+        {"p99, last 10 s", millisecondsText(lastTimes.p99Ms),
+         "99 % of the frames of the last 10 seconds took at most this."},
+        {"Longest, last 10 s", millisecondsText(lastTimes.maxMs),
          "Longest frame of the last 10 seconds. Switching a feature on may take one long frame."}};
     rows.push_back(
         {"Drawn because", view.frames.drawnBecause,
