@@ -86,6 +86,15 @@ std::vector<KeyColumn> keyColumns(const ActionKeys& keys) {
 void keysWindow(const ActionContext& context) {
     const ImVec2 at = ImGui::GetWindowPos();
     noteRect("Keys and mouse", {at.x, at.y, ImGui::GetWindowWidth(), ImGui::GetWindowHeight()});
+    // The lists may be longer than the window.
+    wrappedText("The keys of commands and panels can be changed in the file " + keyFilePath().string() + ".",
+                palette().dim);
+    if (button("Write key file", actionNamed("write_key_file").help.c_str()))
+        context.commands.push_back(WriteKeyFile{});
+    ImGui::SameLine();
+    if (button("Reload keys", actionNamed("reload_keys").help.c_str()))
+        context.commands.push_back(ReloadKeys{});
+    ImGui::Separator();
     const float gap = 2 * ImGui::GetFontSize();
     const float room = ImGui::GetMainViewport()->WorkSize.x - 2 * gap;
     float used = 0;
@@ -102,14 +111,6 @@ void keysWindow(const ActionContext& context) {
         for (const KeyList& list : column) keyTable(list.id, list.title, list.keys);
         ImGui::EndGroup();
     }
-    ImGui::Separator();
-    wrappedText("The keys of commands and panels can be changed in the file " + keyFilePath().string() + ".",
-                palette().dim);
-    if (button("Write key file", actionNamed("write_key_file").help.c_str()))
-        context.commands.push_back(WriteKeyFile{});
-    ImGui::SameLine();
-    if (button("Reload keys", actionNamed("reload_keys").help.c_str()))
-        context.commands.push_back(ReloadKeys{});
 }
 
 }  // namespace
