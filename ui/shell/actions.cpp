@@ -73,7 +73,8 @@ void addFile(List& list) {
     list.push_back(
         {.id = "resume",
          .name = "Go on with the last session",
-         .help = "A start without a file opens the planet, the camera, the trace, the comparison and the ruler of the last session.",
+         .help = "A start without a file opens the planet, the camera, the trace, the comparison and the "
+                 "ruler of the last session.",
          .menu = Menu::File,
          .setting = "window.resume",
          .act = [](const Context& c) { c.workspace.preferences.resume = !c.workspace.preferences.resume; },

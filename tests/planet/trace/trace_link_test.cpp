@@ -216,17 +216,17 @@ protected:
 };
 
 // An engine of this process that draws 20 nodes in each frame.
-class Engine {
+class ListeningEngine {
 public:
-    explicit Engine(int port)
+    explicit ListeningEngine(int port)
         : trace_(fmt::format("tcp:127.0.0.1:{}", port), {.ring_bytes = 0, .max_threads = 0, .wake_ms = 1}) {
         for (std::uint64_t id = 1; id <= 20; ++id) {
             const auto node = test::sphereNode(id);
             EXPECT_EQ(lod_trace_node(trace_, &node), 1);
         }
     }
-    Engine(const Engine&) = delete;
-    Engine& operator=(const Engine&) = delete;
+    ListeningEngine(const ListeningEngine&) = delete;
+    ListeningEngine& operator=(const ListeningEngine&) = delete;
 
     int port() const { return lod_trace_port(trace_); }
     lod_trace_stats stats() const { return lod_trace_get_stats(trace_); }
@@ -290,7 +290,7 @@ TEST_F(TraceLinks, countsWhatTheEngineDropped) {
 }
 
 TEST_F(TraceLinks, theFileCanBeReadWhileItGrows) {
-    Engine engine(0);
+    ListeningEngine engine(0);
     const auto link = linkTo(engine.port());
     engine.awaitTool();
     ASSERT_TRUE(comesTo(*link, TraceLinkState::Receiving));
@@ -328,7 +328,7 @@ TEST_F(TraceLinks, waitsForAnEngineThatStartsLater) {
     EXPECT_EQ(link->status().message,
               fmt::format("waits for an engine that listens at tcp:127.0.0.1:{}", port));
     EXPECT_EQ(fileCountIn(folder.path()), 0u);
-    Engine engine(port);
+    ListeningEngine engine(port);
     engine.awaitTool();
     engine.draw(10);
     ASSERT_TRUE(hasFrames(*link, 10));
@@ -342,7 +342,7 @@ TEST_F(TraceLinks, eachConnectionHasANewFileAndNoneIsReplaced) {
     const int port = freePort();
     const auto link = linkTo(port);
     for (const int frames : {10, 20}) {
-        Engine engine(port);
+        ListeningEngine engine(port);
         engine.awaitTool();
         engine.draw(frames);
         ASSERT_TRUE(completesFrames(frames == 10 ? "live-2.lodtrace" : "live-4.lodtrace",
@@ -472,8 +472,8 @@ TEST_F(TraceLinks, nothingThatAKilledEngineSentIsLost) {
 }
 
 TEST_F(TraceLinks, twoLinksToTwoEnginesStayApart) {
-    Engine first(0);
-    Engine second(0);
+    ListeningEngine first(0);
+    ListeningEngine second(0);
     TraceLinkSettings other = settingsFor(second.port());
     other.name = "other";
     const auto firstLink = linkTo(first.port());
@@ -493,7 +493,7 @@ TEST_F(TraceLinks, twoLinksToTwoEnginesStayApart) {
 }
 
 TEST_F(TraceLinks, aSecondEngineAtThePortIsTold) {
-    Engine engine(0);
+    ListeningEngine engine(0);
     const auto link = linkTo(engine.port());
     engine.awaitTool();
     std::array<char, 512> error{};
@@ -507,7 +507,7 @@ TEST_F(TraceLinks, aSecondEngineAtThePortIsTold) {
 }
 
 TEST_F(TraceLinks, aSecondToolIsTurnedAwayAndAttachesWhenTheFirstLeaves) {
-    Engine engine(0);
+    ListeningEngine engine(0);
     const auto first = linkTo(engine.port());
     engine.awaitTool();
     TraceLinkSettings other = settingsFor(engine.port());
@@ -531,7 +531,7 @@ TEST_F(TraceLinks, aSecondToolIsTurnedAwayAndAttachesWhenTheFirstLeaves) {
 }
 
 TEST_F(TraceLinks, anEngineThatSendsNothingIsSilentAndNoError) {
-    Engine engine(0);
+    ListeningEngine engine(0);
     const auto link = linkTo(engine.port());
     engine.awaitTool();
     engine.draw(10);
@@ -793,7 +793,7 @@ TEST_F(TraceLinks, stopsWhileItConnects) {
 }
 
 TEST_F(TraceLinks, stopsWhileItReceives) {
-    Engine engine(0);
+    ListeningEngine engine(0);
     const auto link = linkTo(engine.port());
     engine.awaitTool();
     std::atomic<bool> isDone = false;
