@@ -51,7 +51,7 @@ CameraPose poseFromView(const View& view, double radiusM) {
     // The right vector is level at any pitch, so heading is defined even when looking straight down.
     const double heading = std::atan2(-glm::dot(view.right, frame.north), glm::dot(view.right, frame.east));
     // Rounding can give a heading slightly west of north for north.
-    pose.headingDeg = glm::degrees(heading < -1e-12 ? heading + glm::radians(360.0) : std::max(heading, 0.0));
+    pose.headingDeg = glm::degrees(heading < -1e-12 ? heading + glm::radians(360.0) : std::max(0.0, heading));
     pose.pitchDeg = glm::degrees(std::asin(std::clamp(-glm::dot(view.back, frame.up), -1.0, 1.0)));
     return pose;
 }

@@ -203,12 +203,39 @@ void addEdit(List& list) {
 
 // ---- View ----
 
-void addPanels(List& list) {
+// Returns the submenu that lists a panel; empty: the View menu itself. With all panels it would not fit a small window.
+const char* submenuOf(PanelId panel) {
+    switch (panel) {
+        case PanelId::Errors:
+        case PanelId::Cracks:
+        case PanelId::Pops:
+        case PanelId::Probe:
+        case PanelId::Flight:
+        case PanelId::Compare:
+        case PanelId::Sweep:
+        case PanelId::Ruler:
+        case PanelId::Timeline:
+            return "Measuring panels";
+        case PanelId::Trace:
+        case PanelId::TraceNodes:
+        case PanelId::TraceNode:
+        case PanelId::TracePaging:
+        case PanelId::TraceFindings:
+        case PanelId::TraceWhatIf:
+            return "Trace panels";
+        default:
+            return "";
+    }
+}
+
+void addPanels(List& list, std::string_view submenu) {
     for (const PanelInfo& info : panelInfos) {
+        if (submenuOf(info.id) != submenu) continue;
         list.push_back({.id = "panel_" + std::string(info.key),
                         .name = info.title,
                         .help = "Brings the panel to the front, or hides it if it is there.",
                         .menu = Menu::View,
+                        .submenu = std::string(submenu),
                         .keys = {info.shortcut},
                         .panel = info.id,
                         .act = [id = info.id](const Context& c) { togglePanel(id, c.workspace); },
@@ -812,7 +839,7 @@ List makeActions() {
     List list;
     addFile(list);
     addEdit(list);
-    addPanels(list);
+    for (const char* const submenu : {"", "Measuring panels", "Trace panels"}) addPanels(list, submenu);
     addFocus(list);
     addFocusedPanel(list);
     addDockSizes(list);

@@ -1,6 +1,7 @@
 #include "ui/shell/menu_bar.h"
 
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include "tests/support/action_fixture.h"
 #include "tests/support/panel_fixture.h"
@@ -36,6 +37,24 @@ TEST(MenuBar, aMenuHoldsItsActionsAndAnItemActs) {
     }
     window.click("menu item/Seams", 0.5f, frame);
     EXPECT_FALSE(isShown(bench.workspace, PanelId::Seams)) << "it is hidden, although it is behind another";
+}
+
+// A menu that is higher than the window scrolls, and its last entries are hard to find.
+TEST(MenuBar, everyMenuFitsASmallWindow) {
+    PanelWindow window{{1024, 640}};
+    ActionBench bench;
+    const auto frame = [&] { window.frame([&] { menuBar(bench.context()); }); };
+    frame();
+    for (const char* const menu : {"File", "Edit", "View", "Camera", "Help"}) {
+        window.click(std::string("menu/") + menu, 0.5f, frame);
+        frame();
+        frame();
+        const ImGuiWindow* const list = ImGui::FindWindowByName("##Menu_00");
+        ASSERT_TRUE(list && list->Active) << menu;
+        EXPECT_LE(list->ContentSize.y, list->InnerRect.GetHeight()) << menu;
+        window.click(std::string("menu/") + menu, 0.5f, frame);
+        frame();
+    }
 }
 
 TEST(MenuBar, aGreyItemDoesNothing) {
