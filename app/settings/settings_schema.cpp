@@ -588,10 +588,12 @@ const std::array<PanelTexts, panelCount>& panelTexts() {
 
 const std::array<DockTexts, dockCount>& dockTexts() {
     static const std::array<DockTexts, dockCount> texts = [] {
+        constexpr std::array<const char*, dockCount> titles = {"left dock", "right dock", "bottom dock",
+                                                               "second window"};
         std::array<DockTexts, dockCount> made;
         for (std::size_t i = 0; i < dockCount; ++i)
-            made[i] = {fmt::format("{}_front", dockNames[i]), fmt::format("Front of {} dock", dockNames[i]),
-                       fmt::format("Panel in front in the {} dock.", dockNames[i])};
+            made[i] = {fmt::format("{}_front", dockNames[i]), fmt::format("Front of {}", titles[i]),
+                       fmt::format("Panel in front in the {}.", titles[i])};
         return made;
     }();
     return texts;
