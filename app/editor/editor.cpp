@@ -23,9 +23,6 @@
 #include "planet/planet_tools.h"
 #include "planet/source/terrain.h"
 #include "planet/spans/span_recorder.h"
-#include "ui/kit/theme.h"
-#include "ui/shell/menu_bar.h"
-#include "ui/shell/status_bar.h"
 
 namespace worldy {
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t mostRows = 8;  // per lane; no thread nests deeper
 
-bool fits(const TimelineRow& row, TimelineRow::const_iterator after, const planet::Span& span) {
+bool fits(const TimelineRow& row, const TimelineRow::const_iterator& after, const planet::Span& span) {
     return (after == row.begin() || std::prev(after)->endNs <= span.beginNs) &&
            (after == row.end() || span.endNs <= after->beginNs);
 }

@@ -63,8 +63,10 @@ char lower(char c) {
 
 bool isSpaceMouse(std::string_view name) {
     constexpr std::array<std::string_view, 3> known = {"spacenavigator", "spacemouse", "3dconnexion"};
+    std::string lowered(name);
+    std::ranges::transform(lowered, lowered.begin(), lower);
     return std::ranges::any_of(
-        known, [&](std::string_view part) { return !std::ranges::search(name, part, {}, lower).empty(); });
+        known, [&](std::string_view part) { return lowered.find(part) != std::string::npos; });
 }
 
 SteeringState gamepadState(std::string name, std::span<const float> axes,

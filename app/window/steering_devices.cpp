@@ -32,8 +32,8 @@ SteeringState readJoystick(int joystick) {
     }
     GLFWgamepadstate state{};
     if (glfwGetGamepadState(joystick, &state)) {
-        const std::string mapped = textOf(glfwGetGamepadName(joystick));
-        return gamepadState(mapped.empty() ? std::move(name) : mapped, state.axes, state.buttons);
+        std::string mapped = textOf(glfwGetGamepadName(joystick));
+        return gamepadState(std::move(mapped.empty() ? name : mapped), state.axes, state.buttons);
     }
     return {.name = std::move(name)};
 }

@@ -44,10 +44,10 @@ counter() {
 }
 # counts drawn -gt 100
 counts() { [ "$(counter "$1")" "$2" "$3" ]; }
-# Asks for frames and waits until all that was done by now is seen: frames that began after it have ended, and no key or
-# button waits for its frame.
+# Asks for frames and waits until all that was done by now is seen: so many frames that began after it have ended, and no
+# key or button waits for its frame. One more frame may have begun before.
 frames() {
-    local last=$(($(counter frame) + ${1:-3}))
+    local last=$(($(counter frame) + ${1:-3} + 1))
     echo $last >items.txt.ask
     until_true counts frame -ge $last || return 1
     counts queued_input -eq 0 || frames ${1:-3}

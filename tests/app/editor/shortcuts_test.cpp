@@ -60,6 +60,16 @@ TEST_F(ShortcutsTest, escLeavesASettingBeforeItClosesThePalette) {
     EXPECT_TRUE(bench_.commands.empty());
 }
 
+TEST_F(ShortcutsTest, whatIsTypedBeforeThePalettesFieldHasTheFocusIsNoShortcut) {
+    press("Ctrl+K");
+    press("F2");
+    EXPECT_TRUE(bench_.commands.empty());
+    press("Ctrl+K");
+    EXPECT_FALSE(bench_.menu.palette.isOpen);
+    press("F2");
+    EXPECT_EQ(bench_.commands.size(), 1u);
+}
+
 TEST_F(ShortcutsTest, aButtonDoesWhatItsActionDoesAndSaysWhyNot) {
     const std::array pressed = {GamepadButton::X, GamepadButton::Guide, GamepadButton::A};
     obeyButtons(pressed, bench_.context());
