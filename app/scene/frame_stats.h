@@ -31,7 +31,7 @@ struct FrameStats {
     double panelsMs = 0;           // building the panels
     double panelsGpuMs = 0;        // drawing the panels, by a timer query
     double presentMs = 0;          // presenting the frame, including the wait for the monitor
-    double frameMs = 0;            // from the start of this frame to the start of the next
+    double frameMs = 0;            // of the frame before, from its start to the start of this one
 };
 
 // Returns the frame `now` with smoothed times; counts are not smoothed.
