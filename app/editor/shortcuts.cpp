@@ -22,7 +22,7 @@ static_assert(GLFW_KEY_ESCAPE == 256 && GLFW_KEY_ENTER == 257 && GLFW_KEY_TAB ==
 static_assert(GLFW_MOD_SHIFT == 1 && GLFW_MOD_CONTROL == 2 && GLFW_MOD_ALT == 4);
 
 bool worksNow(const ui::Action& action, const ui::MenuState& menu) {
-    // What is typed right after the palette has opened is meant for its field, which gets the focus some frames later.
+    // Letters typed right after the palette has opened are meant for its field, which gets the focus some frames later.
     const bool isTyping =
         ImGui::GetIO().WantTextInput || (menu.palette.isOpen && menu.palette.edited.empty());
     if (!isTyping || action.inTextFields) return true;

@@ -254,7 +254,7 @@ Point pointerOverWindows(Point pointer, const Layout& layout) {
         isOfSecond ? Point{pointer.x - second.x + layout.secondLeft, pointer.y - second.y + layout.secondTop}
                    : pointer;
     const Point onSecond{onMain.x - layout.secondLeft + second.x, onMain.y - layout.secondTop + second.y};
-    // Where the windows overlap, the one that holds the button is taken.
+    // If the windows overlap, the one that holds the button is taken.
     const bool isOverMain = contains(mainWindow(layout), onMain);
     const bool isOverSecond = contains(second, onSecond);
     return isOverSecond && (isOfSecond || !isOverMain) ? onSecond : onMain;

@@ -1,4 +1,4 @@
-// What the buttons of a gamepad do: commands of the list in ui/shell/actions.h.
+// The buttons of a gamepad carry out commands of the list in ui/shell/actions.h.
 #pragma once
 
 #include <span>

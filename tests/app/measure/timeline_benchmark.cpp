@@ -1,5 +1,5 @@
-// What recording the timeline costs: a span on the thread that records it, and taking it over on the main thread. An
-// iteration of takeASpan is a frame of 80 spans; items_per_second counts spans. The last benchmark draws nothing, but finds the
+// Measures the cost of recording the timeline: a span on the thread that records it, and taking it over on the main thread.
+// An iteration of takeASpan is a frame of 80 spans; items_per_second counts spans. The last benchmark draws nothing, but finds the
 // boxes of a row with five minutes of spans.
 #include <benchmark/benchmark.h>
 

@@ -16,9 +16,8 @@ struct TimelineLanesState {
     bool held = false;                     // the view stays; otherwise it follows the newest frame
     std::optional<TimeRange> marked{};     // not empty
     std::optional<std::uint64_t> frame{};  // selected, by number
-    // Of the current drag.
-    double movedPx = 0;
-    bool marks = false;  // it marks a range
+    double movedPx = 0;                    // by the current drag, which also sets the next two
+    bool marks = false;                    // it marks a range
     std::int64_t markFromNs = 0;
 };
 
