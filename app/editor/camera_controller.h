@@ -1,6 +1,5 @@
 // The window's cameras: the LOD camera, the observer, freezing of LOD, inspection of places, bookmarks, and the devices that
-// steer.
-// Main thread.
+// steer. Main thread.
 #pragma once
 
 #include <filesystem>

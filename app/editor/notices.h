@@ -20,10 +20,10 @@ struct Notices {
 
 inline constexpr double confirmationS = 5;  // how long a confirmation is shown
 
-// Shows in the viewport for confirmationS that a request is done.
-void show(Notices& notices, const std::string& text);
 // Shows a value for a moment after each of its changes.
 void showBriefly(Notices& notices, const std::string& text);
+// Shows in the viewport for confirmationS that a request is done.
+void show(Notices& notices, const std::string& text);
 // Does the same and writes it to the log.
 void confirm(Notices& notices, const std::string& text);
 // Does the same with another text for the log, because whole paths are too long for the viewport.

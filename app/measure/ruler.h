@@ -42,7 +42,8 @@ struct Ruler {
 
 // Places the first end, then the second one; after both, begins again with the first.
 void placeRulerEnd(Ruler& ruler, const glm::dvec3& positionM);
-// The ends as places on the globe, to keep them for the next start; directions of the poses mean nothing.
+// Return and set the ends as places on the globe, which are kept for the next start. The poses' directions mean nothing, and
+// at most two places are used.
 std::vector<planet::CameraPose> rulerPlaces(const Ruler& ruler, double radiusM);
 void setRulerPlaces(Ruler& ruler, std::span<const planet::CameraPose> places, double radiusM);
 void swapRulerEnds(Ruler& ruler);

@@ -471,7 +471,10 @@ void Window::close() const {
 }
 
 bool Window::isFocused() const {
-    return glfwGetWindowAttrib(glfw_->window, GLFW_FOCUSED) != 0;
+    const auto hasFocus = [](GLFWwindow* window) {
+        return window && glfwGetWindowAttrib(window, GLFW_FOCUSED) != 0;
+    };
+    return hasFocus(glfw_->window) || hasFocus(glfw_->second);
 }
 
 bool Window::waitForInput(double waitS) const {

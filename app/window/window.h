@@ -50,7 +50,7 @@ public:
     void setTitle(const std::string& title) const;
     bool closing() const;
     void close() const;
-    bool isFocused() const;  // keys go to this window
+    bool isFocused() const;  // keys go to this window or to the second one
 
     // Waits for input, but not longer than waitS seconds. Returns whether input has come since the last frame began: keys,
     // buttons, the pointer, dropped files, or a change of the window itself.

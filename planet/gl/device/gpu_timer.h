@@ -1,5 +1,6 @@
 // Measures the GPU time between begin() and end() without waiting for the GPU, so results are some frames
-// old. While spans are recorded, each measurement is also one in the lane of the GPU (gpu_clock.h). Uses timestamps rather than an elapsed-time query, so that a caller's own timer may enclose it.
+// old. While spans are recorded, each measurement is also one in the lane of the GPU (gpu_clock.h). Uses timestamps rather
+// than an elapsed-time query, so that a caller's own timer may enclose it.
 #pragma once
 
 #include <array>
