@@ -120,6 +120,12 @@ bool beginListTable(const char* id, std::span<const TableColumn> columns, std::s
     return beginTable(id, columns, {0, height}, frozenColumns);
 }
 
+bool beginPlainTable(const char* id, int columns, ImGuiTableFlags flags) {
+    if (!ImGui::BeginTable(id, columns, flags | ImGuiTableFlags_SizingFixedFit)) return false;
+    detail::beginRows();
+    return true;
+}
+
 bool beginSizedTable(const char* id, std::span<const TableColumn> columns, ImVec2 size) {
     return beginTable(id, columns, size, 0);
 }

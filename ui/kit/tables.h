@@ -40,6 +40,8 @@ bool beginWideTable(const char* id, std::span<const TableColumn> columns, int fr
 // horizontally like a wide table.
 bool beginListTable(const char* id, std::span<const TableColumn> columns, std::size_t rows,
                     std::size_t mostLines = 12, int frozenColumns = 0);
+// Begins a table without a header, whose columns are as wide as their texts. flags are added to Dear ImGui's.
+bool beginPlainTable(const char* id, int columns, ImGuiTableFlags flags = 0);
 // Begins a table of the given size in pixels. It scrolls horizontally like a wide table.
 bool beginSizedTable(const char* id, std::span<const TableColumn> columns, ImVec2 size);
 

@@ -1,5 +1,6 @@
 #include "ui/shell/help_windows.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
@@ -18,18 +20,22 @@ namespace worldy::ui {
 
 namespace {
 
+void keyRow(const KeyHelp& help) {
+    ImGui::TableNextColumn();
+    ImGui::TextColored(palette().accent, "%s", help.keys.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(inFont(help.meaning).c_str());
+}
+
 void keyTable(const char* id, const char* title, std::span<const KeyHelp> keys) {
     ImGui::BeginGroup();
     ImGui::TextColored(palette().dim, "%s", title);
-    if (ImGui::BeginTable(
-            id, 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoHostExtendX)) {
-        for (const KeyHelp& help : keys) {
-            ImGui::TableNextColumn();
-            ImGui::TextColored(palette().accent, "%s", help.keys.c_str());
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(inFont(help.meaning).c_str());
-        }
-        ImGui::EndTable();
+    if (beginPlainTable(id, 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_NoHostExtendX)) {
+        for (std::size_t row = 0; row < keys.size(); ++row) tableRow(row, [&] { keyRow(keys[row]); });
+        const auto keyOf = [&](std::size_t row) -> const KeyHelp& { return keys[row]; };
+        endTable(exportTable<KeyHelp>(fmt::format("{} keys", id), keys.size(), keyOf,
+                                      {{"key", [](const KeyHelp& help) { return help.keys; }, true},
+                                       {"meaning", [](const KeyHelp& help) { return help.meaning; }, true}}));
     }
     ImGui::EndGroup();
 }

@@ -9,6 +9,7 @@
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/kit/chunk_link.h"
+#include "ui/kit/exports.h"
 #include "ui/shell/panels.h"
 
 namespace worldy::ui {
@@ -307,9 +308,21 @@ TEST_F(PanelControls, theLogIsCopiedAsItIsFiltered) {
     log_.push_back({LogLevel::Info, "14:03:22", "opened"});
     log_.push_back({LogLevel::Error, "14:03:23", "broken"});
     click(PanelId::Log, "info");
-    const Commands copy = click(PanelId::Log, "Copy");
-    ASSERT_TRUE(only<CopyText>(copy));
-    EXPECT_EQ(only<CopyText>(copy)->text, "14:03:23 error    broken\n");
+    Commands sent;
+    ExportState exports;
+    const auto draw = [&] {
+        beginExports(exports, sent);
+        frame(PanelId::Log);
+        endExports();
+    };
+    for (const char* item : {"log menu", "Save all as CSV"}) {
+        for (int i = 0; i < 2; ++i) draw();
+        window_.click(item, 0.5f, draw);
+    }
+    ASSERT_EQ(sent.size(), 1u);
+    ASSERT_TRUE(sent[0].as<SaveExport>());
+    EXPECT_EQ(sent[0].as<SaveExport>()->text,
+              "schema_version,time,level,text\r\n2,14:03:23,error,broken\r\n");
 }
 
 TEST_F(PanelControls, aNewLogLineIsShownAtOnce) {

@@ -174,6 +174,12 @@ void timeline(const ReplayNow& replay, Commands& commands) {
                         "back replays the flight from the start.",
                         share * durationS, ticksText(replay, share * durationS))
                 .c_str());
+    exportPlot("level changes", exportTable<FlightTick>(
+                                    "level changes", replay.ticks.size(),
+                                    [&](std::size_t row) -> const FlightTick& { return replay.ticks[row]; },
+                                    {{"time_s", [](const FlightTick& tick) { return tick.timeS; }, true},
+                                     {"splits", [](const FlightTick& tick) { return tick.splits; }},
+                                     {"merges", [](const FlightTick& tick) { return tick.merges; }}}));
 }
 
 void transport(const ReplayNow& replay, Commands& commands) {

@@ -121,32 +121,6 @@ void drawRow(const AllocationRow& row, const AllocationsView& view, bool withMar
     if (withMark) rightCell(marked, palette().dim);
 }
 
-ExportTable allocationExport(const AllocationsView& view) {
-    ExportTable table{.name = "allocations",
-                      .columns = {{"group"}, {"kind"}, {"unit"}, {"now"}, {"mark"}, {"change"}},
-                      .rows = kindRows.size()};
-    table.cell = [&](std::size_t row, std::size_t column) -> ExportCell {
-        const AllocationRow& kind = kindRows[row];
-        const double now = kind.value(*view.now), mark = kind.value(view.mark);
-        switch (column) {
-            case 0:
-                while (!kindRows[row].group) --row;
-                return kindRows[row].group;
-            case 1:
-                return shownName(kind);
-            case 2:
-                return kind.bytes ? "bytes" : "count";
-            case 3:
-                return now;
-            case 4:
-                return mark;
-            default:
-                return now - mark;
-        }
-    };
-    return table;
-}
-
 void drawTable(const AllocationsView& view) {
     const bool withMark = ImGui::GetContentRegionAvail().x >= listTableWidth(allocationColumns);
     const std::span<const TableColumn> shown = withMark ? std::span(allocationColumns) : withoutMark;
@@ -200,16 +174,30 @@ std::string allocationChange(const AllocationRow& row, const Allocations& before
     return (change > 0 ? "+" : "-") + textOf(row, std::abs(change));
 }
 
-std::string allocationsText(const AllocationsView& view) {
-    std::string text = "kind\tnow\tmark\tchange\n";
-    if (!view.now) return text;
-    std::string group;
-    for (const AllocationRow& row : kindRows) {
-        if (row.group) group = row.group;
-        text += fmt::format("{}: {}\t{:.0f}\t{:.0f}\t{:+.0f}\n", group, shownName(row), row.value(*view.now),
-                            row.value(view.mark), row.value(*view.now) - row.value(view.mark));
-    }
-    return text;
+ExportTable allocationExport(const AllocationsView& view) {
+    ExportTable table{.name = "allocations",
+                      .columns = {{"group"}, {"kind"}, {"unit"}, {"now"}, {"mark"}, {"change"}},
+                      .rows = kindRows.size()};
+    table.cell = [&](std::size_t row, std::size_t column) -> ExportCell {
+        const AllocationRow& kind = kindRows[row];
+        const double now = kind.value(*view.now), mark = kind.value(view.mark);
+        switch (column) {
+            case 0:
+                while (!kindRows[row].group) --row;
+                return kindRows[row].group;
+            case 1:
+                return shownName(kind);
+            case 2:
+                return kind.bytes ? "bytes" : "count";
+            case 3:
+                return now;
+            case 4:
+                return mark;
+            default:
+                return now - mark;
+        }
+    };
+    return table;
 }
 
 float allocationTableWidth() {
@@ -225,9 +213,6 @@ void allocationTable(const AllocationsView& view, double timeS, Commands& comman
                "Stores the current values as the reference for the change column. To find leaks, do "
                "something, undo it, and check that the changes are 0."))
         commands.emplace_back(MarkAllocations{});
-    sameLineForButton("Copy##allocations");
-    if (button("Copy##allocations", "Copies the table as tab-separated text with unrounded bytes."))
-        commands.emplace_back(CopyText{allocationsText(view)});
     const std::string marked = "marked " + agoText(timeS - view.mark.atS);
     sameLineIfRoom(ImGui::CalcTextSize(marked.c_str()).x);
     ImGui::TextDisabled("%s", marked.c_str());

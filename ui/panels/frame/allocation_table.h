@@ -8,6 +8,7 @@
 
 #include "ui/model/allocations_view.h"
 #include "ui/model/commands.h"
+#include "ui/model/export_table.h"
 #include "ui/model/table_order.h"
 
 namespace worldy::ui {
@@ -28,8 +29,8 @@ SortKey allocationSortKey(std::size_t row, AllocationColumn column, const Alloca
 std::string allocationText(const AllocationRow& row, const Allocations& held);
 // Returns for example "+1.2 MiB", "-3" or "=".
 std::string allocationChange(const AllocationRow& row, const Allocations& before, const Allocations& now);
-// Returns all rows with tabs between the columns, for comparison with another run.
-std::string allocationsText(const AllocationsView& view);
+// Returns the rows with unrounded values. view: as long as the table is used; view.now must be set.
+ExportTable allocationExport(const AllocationsView& view);
 
 // Returns the width at which the table shows all columns but Mark, pixels.
 float allocationTableWidth();

@@ -22,12 +22,6 @@ std::string lineText(const LogLine& line) {
     return fmt::format("{} {:7}  {}", line.time, levelName(line.level), line.text);
 }
 
-std::string linesText(const std::deque<LogLine>& lines, std::span<const std::size_t> which) {
-    std::string text;
-    for (const std::size_t i : which) text += lineText(lines[i]) + "\n";
-    return text;
-}
-
 const char* levelName(LogLevel level) {
     constexpr std::array names = {"debug", "info", "warning", "error"};
     return names[static_cast<std::size_t>(level)];

@@ -18,8 +18,6 @@ std::vector<std::size_t> filteredLines(const std::deque<LogLine>& lines, std::st
 
 // Returns "14:03:22 warning  the text".
 std::string lineText(const LogLine& line);
-// Returns the text of the lines `which`, each ended by a newline.
-std::string linesText(const std::deque<LogLine>& lines, std::span<const std::size_t> which);
 
 const char* levelName(LogLevel level);
 

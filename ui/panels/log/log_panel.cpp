@@ -8,6 +8,7 @@
 
 #include "ui/kit/filter_box.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/panels/log/log_filter.h"
@@ -49,8 +50,7 @@ void refresh(const std::deque<LogLine>& lines, LogPanelState& state) {
     shown.newestText = newest ? newest->text : std::string();
 }
 
-void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
-    const float font = ImGui::GetFontSize();
+void toolbar(LogPanelState& state) {
     filterBox(state.filter, "lines");
     for (std::size_t i = 0; i < state.levels.size(); ++i) {
         const auto level = static_cast<LogLevel>(i);
@@ -64,13 +64,6 @@ void toolbar(const std::deque<LogLine>& lines, LogPanelState& state, Commands& c
     sameLineIfRoom(checkboxWidth("Follow"));
     ImGui::Checkbox("Follow", &state.autoScroll);
     tooltip("Scrolls to new lines. Scrolling up turns this off.");
-    sameLineIfRoom(font * 3.5f);
-    beginGrey(state.shown.lines.empty(), "No line is shown.");
-    const std::string explanation = fmt::format(
-        "Copies the {} lines shown. Right-click a line to copy only that line.", state.shown.lines.size());
-    if (button("Copy", explanation.c_str()))
-        commands.push_back(CopyText{linesText(lines, state.shown.lines)});
-    endGrey();
 }
 
 // Selects the chunk that a line names, looks at the tile of colour, or else copies the path of the file.
@@ -115,18 +108,13 @@ void lineTooltip(const LogLine& line, Commands& commands) {
 }
 
 void drawLine(const LogLine& line, std::size_t index, Commands& commands) {
-    ImGui::PushID(static_cast<int>(index));
+    ImGui::TableNextColumn();
     const ImVec2 start = ImGui::GetCursorPos();
-    const float timeWidth = ImGui::CalcTextSize(line.time.c_str()).x + ImGui::GetStyle().ItemSpacing.x;
-    const float textWidth = ImGui::CalcTextSize(line.text.c_str()).x;
     // The whole line takes the click; its words are drawn over it.
-    if (ImGui::Selectable("##line", false, 0,
-                          {std::max(timeWidth + textWidth, ImGui::GetContentRegionAvail().x), 0}))
-        follow(line, commands);
+    if (ImGui::Selectable("##line", false, ImGuiSelectableFlags_SpanAllColumns)) follow(line, commands);
     noteItem(fmt::format("line {}", index));
     lineTooltip(line, commands);
     lineMenu(line, commands);
-    const ImVec2 next = ImGui::GetCursorPos();
     ImGui::SetCursorPos(start);
     ImGui::TextColored(palette().dim, "%s", line.time.c_str());
     ImGui::SameLine();
@@ -134,34 +122,34 @@ void drawLine(const LogLine& line, std::size_t index, Commands& commands) {
     highlightHits(line.text);
     ImGui::TextUnformatted(line.text.c_str());
     ImGui::PopStyleColor();
-    ImGui::SetCursorPos(next);
-    ImGui::PopID();
+}
+
+void lineTable(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
+    const std::vector<std::size_t>& shown = state.shown.lines;
+    if (!beginPlainTable("lines", 1, ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY)) return;
+    if (ImGui::IsWindowHovered() && ImGui::GetIO().MouseWheel > 0 && ImGui::GetScrollMaxY() > 0)
+        state.autoScroll = false;
+    const HitHighlight highlight(state.filter);
+    const auto lineOf = [&](std::size_t row) -> const LogLine& { return lines[shown[row]]; };
+    tableRows(shown.size(), [&](std::size_t row) { drawLine(lineOf(row), shown[row], commands); });
+    constexpr float belowEveryLine = 1e8f;  // pixels
+    if (state.autoScroll) ImGui::SetScrollY(belowEveryLine);
+    endTable(exportTable<LogLine>("log", shown.size(), lineOf,
+                                  {{"time", [](const LogLine& line) { return line.time; }, true},
+                                   {"level", [](const LogLine& line) { return levelName(line.level); }, true},
+                                   {"text", [](const LogLine& line) { return line.text; }, true}}));
 }
 
 }  // namespace
 
 void logPanel(const std::deque<LogLine>& lines, LogPanelState& state, Commands& commands) {
     refresh(lines, state);
-    toolbar(lines, state, commands);
+    toolbar(state);
     refresh(lines, state);
-
-    ImGui::BeginChild("lines", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
-    if (ImGui::IsWindowHovered() && ImGui::GetIO().MouseWheel > 0 && ImGui::GetScrollMaxY() > 0)
-        state.autoScroll = false;
-    const std::vector<std::size_t>& shown = state.shown.lines;
-    if (shown.empty()) emptyState(lines.empty() ? "The log is empty." : "No line matches the filters.");
-    const HitHighlight highlight(state.filter);
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(shown.size()));
-    while (clipper.Step()) {
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-            const std::size_t index = shown[static_cast<std::size_t>(i)];
-            drawLine(lines[index], index, commands);
-        }
-    }
-    clipper.End();
-    if (state.autoScroll) ImGui::SetScrollHereY(1);
-    ImGui::EndChild();
+    if (state.shown.lines.empty())
+        emptyState(lines.empty() ? "The log is empty." : "No line matches the filters.");
+    else
+        lineTable(lines, state, commands);
 }
 
 }  // namespace worldy::ui

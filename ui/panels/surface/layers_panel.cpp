@@ -8,6 +8,7 @@
 
 #include "ui/kit/feature_control.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/panels/surface/layer_controls.h"
@@ -72,8 +73,6 @@ void letterSwitch(const char* letter, const std::string& item, bool& value, cons
 void layerRow(const EditorView& view, std::size_t index, LayersPanelState& state, LayerSettings& layers,
               std::optional<std::pair<std::size_t, std::size_t>>& moved) {
     TextureLayer& layer = layers.set.layers[index];
-    ImGui::PushID(static_cast<int>(index));
-    ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const glm::vec3 known = index < view.layers.colours.size() ? view.layers.colours[index] : glm::vec3(0.5f);
     const glm::vec3 colour = known * layer.tint;
@@ -103,7 +102,27 @@ void layerRow(const EditorView& view, std::size_t index, LayersPanelState& state
     ImGui::SameLine();
     letterSwitch("S", fmt::format("solo {}", layer.name), layer.solo, palette().accent,
                  "Solo: while any layer is solo, only solo layers are drawn.");
-    ImGui::PopID();
+}
+
+// The weights are those of the column: under the pointer.
+ExportTable layerExport(const EditorView& view, const LayerSettings& layers) {
+    const planet::LayerSet& set = layers.set;
+    using Row = std::size_t;
+    const auto of = [&set](auto TextureLayer::*value) {
+        return [&set, value](Row row) { return ExportCell(set.layers[row].*value); };
+    };
+    const auto weight = [&view](Row row) {
+        return view.layers.under ? ExportCell(view.layers.under->weights[row]) : ExportCell();
+    };
+    return exportTable<Row>("texture layers", set.layers.size(), [](Row row) { return row; },
+                            {{"from_bottom", [](Row row) { return row + 1; }, true},
+                             {"layer", of(&TextureLayer::name)},
+                             {"drawn", [&set](Row row) { return planet::isDrawn(set, row); }},
+                             {"muted", of(&TextureLayer::muted)},
+                             {"solo", of(&TextureLayer::solo)},
+                             {"opacity", of(&TextureLayer::opacity)},
+                             {"scale_m", of(&TextureLayer::scaleM)},
+                             {"weight_under_pointer", weight}});
 }
 
 // Draws the list with the highest layer first.
@@ -113,13 +132,14 @@ void layerList(const EditorView& view, LayersPanelState& state, LayerSettings& l
         return;
     }
     std::optional<std::pair<std::size_t, std::size_t>> moved;
-    if (!ImGui::BeginTable("layers", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) return;
+    if (!beginPlainTable("layers", 4, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("chip");
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("weight");
     ImGui::TableSetupColumn("switches");
-    for (std::size_t i = layers.set.layers.size(); i-- > 0;) layerRow(view, i, state, layers, moved);
-    ImGui::EndTable();
+    for (std::size_t i = layers.set.layers.size(); i-- > 0;)
+        tableRow(i, [&] { layerRow(view, i, state, layers, moved); });
+    endTable(layerExport(view, layers));
     if (!moved || moved->first >= layers.set.layers.size()) return;
     moveLayer(layers.set.layers, moved->first, moved->second);
     state.chosen = moved->second;
