@@ -103,7 +103,8 @@ bool cornerButton(const ImRect& area, const std::string& name) {
     return pressed;
 }
 
-// Draws the button and the menu of an area. Exports stay possible where a panel greys its results as out of date.
+// Draws the menu of an area, and its button if name is not empty. Exports stay possible where a panel greys its results as
+// out of date.
 template <class DrawItems>
 void menuOver(ImGuiID id, const ImRect& area, const std::string& name, bool rightClicked,
               const DrawItems& items) {
@@ -111,7 +112,7 @@ void menuOver(ImGuiID id, const ImRect& area, const std::string& name, bool righ
     ImGui::PushItemFlag(ImGuiItemFlags_Disabled, false);
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 1);
     ImGui::PushOverrideID(id);
-    const bool pressed = cornerButton(area, name);
+    const bool pressed = !name.empty() && cornerButton(area, name);
     // A name with a menu of its own has already opened that.
     const bool hasOther = GImGui->OpenPopupStack.Size > GImGui->BeginPopupStack.Size;
     if (pressed || (rightClicked && !hasOther)) ImGui::OpenPopup("exports");
@@ -246,14 +247,21 @@ struct TablePlace {
     ImRect outer;  // with the scroll bars
     ImRect body;   // the rows, without the header
     bool isHovered;
+    bool scrolls;
 };
 
 TablePlace endOfTable() {
     ImGuiTable& table = *ImGui::GetCurrentTable();
-    TablePlace place{table.ID, table.InnerWindow, table.OuterRect, table.InnerClipRect,
-                     ImGui::IsWindowHovered()};
+    TablePlace place{table.ID,
+                     table.InnerWindow,
+                     table.OuterRect,
+                     table.InnerClipRect,
+                     ImGui::IsWindowHovered(),
+                     (table.Flags & ImGuiTableFlags_ScrollY) != 0};
     place.body.Min.y = std::max(place.body.Min.y, table.BgClipRect.Min.y);
     ImGui::EndTable();
+    if (place.scrolls) return place;
+    place.outer = table.OuterRect;  // a table that does not scroll has its height only now
     return place;
 }
 
@@ -309,7 +317,9 @@ void endTable(const ExportTable& table) {
                               place.body.Contains(ImGui::GetIO().MousePos);
     ImRect area = place.outer;
     if (place.inner->ScrollbarY) area.Max.x -= ImGui::GetStyle().ScrollbarSize;
-    menuOver(place.id, area, table.name, rightClicked, [&] { tableMenu(table, rows); });
+    // A button would cover a value or a switch of a short list, which is as wide as the panel.
+    const std::string buttonName = place.scrolls ? table.name : "";
+    menuOver(place.id, area, buttonName, rightClicked, [&] { tableMenu(table, rows); });
 }
 
 void exportPlot(const char* id, const ExportTable& samples, bool byRightClick) {

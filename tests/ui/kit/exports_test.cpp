@@ -123,6 +123,34 @@ TEST_F(Exports, withoutReceiverThereIsNoMenu) {
     EXPECT_FALSE(window_.isShown("numbers menu"));
 }
 
+TEST_F(Exports, aListOfValuesHasTheMenuOnARightClick) {
+    const auto draw = [&] {
+        beginExports(state_, commands_);
+        window_.frame([&] {
+            if (!beginValues("facts")) return;
+            valueRow("Height", "12 m", "");
+            noteItem("Height");
+            valueRow("Slope", "3°", "");
+            endValues();
+        });
+        endExports();
+    };
+    for (int i = 0; i < 2; ++i) draw();
+    EXPECT_FALSE(window_.isShown("facts menu")) << "a button covers a value";
+    const ItemPlace* const row = window_.find("Height");
+    ASSERT_TRUE(row);
+    window_.movePointer({row->rect.x + 2, row->rect.y + row->rect.height / 2});
+    for (const bool down : {false, true, false, false}) {
+        ImGui::GetIO().MouseDown[1] = down;
+        draw();
+    }
+    window_.click("Save all as CSV", 0.5f, draw);
+    ASSERT_EQ(commands_.size(), 1u);
+    ASSERT_TRUE(commands_[0].as<SaveExport>());
+    EXPECT_EQ(commands_[0].as<SaveExport>()->text,
+              "schema_version,name,value\r\n2,Height,12 m\r\n2,Slope,3°\r\n");
+}
+
 class PlotExports : public testing::Test {
 protected:
     void draw() {
