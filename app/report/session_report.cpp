@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "app/base/new_file.h"
@@ -11,6 +12,7 @@
 #include "app/base/text.h"
 #include "app/settings/settings_text.h"
 #include "planet/format/chunk_file_types.h"
+#include "planet/sphere/cube_sphere.h"
 #include "ui/model/figures.h"
 
 namespace worldy {
@@ -174,6 +176,36 @@ std::string precisionSection(const EditorView& view) {
            figureTable(figures);
 }
 
+// The heights at places at equal steps, because a profile has more points than a reader wants.
+std::string profileTable(const planet::GroundProfile& profile) {
+    constexpr std::size_t steps = 32;
+    std::string text = header({"distance from A", "place", "finest data", "drawn surface"});
+    const std::size_t last = profile.points.size() - 1;
+    for (std::size_t step = 0; step <= std::min(steps, last); ++step) {
+        const planet::ProfilePoint& point = profile.points[step * last / std::min(steps, last)];
+        const planet::Geographic place = planet::geographicFromDirection(point.direction);
+        text += row({distanceText(point.alongM),
+                     placeText(glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad), 6),
+                     ui::heightText(point.finestM), point.drawnM ? ui::heightText(*point.drawnM) : "-"});
+    }
+    return text;
+}
+
+std::string rulerSection(const EditorView& view) {
+    std::string text =
+        "\n### Ruler\n\nThe ground between two places, A and B. Heights are above the planet's radius and "
+        "have the vertical exaggeration of the picture.\n\n";
+    const ui::RulerView& ruler = view.instruments.ruler;
+    if (ruler.ends.size() < 2) return text + notMeasured;
+    if (!ruler.problem.empty()) return text + fmt::format("Not measured: {}\n", shown(ruler.problem));
+    if (ruler.measured && !ruler.current)
+        text += "Out of date: the drawn chunks have changed since the ground was measured.\n\n";
+    text += figureTable(ui::rulerFigures(ruler));
+    if (!ruler.measured) return text + "\nThe ground between them is not measured yet.\n";
+    if (ruler.measured->profile.points.size() < 2) return text;
+    return text + "\nThe heights on the way:\n\n" + profileTable(ruler.measured->profile);
+}
+
 std::string costSection(const EditorView& view) {
     const std::string text =
         "\n### Costs of features\n\nHow much longer a frame takes with each feature of light and "
@@ -284,7 +316,7 @@ std::string sessionReport(const EditorView& view, const Settings& settings, cons
     text += fileSection(view, facts) + settingsSection(settings) + viewSection(view, settings, facts);
     text += "\n## Measurements\n";
     text += trueErrorSection(view) + crackSection(view) + popSection(view) + precisionSection(view);
-    text += costSection(view) + sweepSection(view) + compareSection(view);
+    text += rulerSection(view) + costSection(view) + sweepSection(view) + compareSection(view);
     return text + noteSection(view) + terms;
 }
 

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "app/base/glossary.h"
 #include "app/base/text.h"
+#include "planet/sphere/cube_sphere.h"
 
 namespace worldy::ui {
 
@@ -26,6 +29,74 @@ std::string errorPxText(double px) {
 std::string stepText(double metres) {
     if (!std::isfinite(metres)) return "none";
     return metres < 1 ? errorText(metres) : distanceText(metres);
+}
+
+std::string slopeText(double slopeRad) {
+    // Three decimals, and never "-0.000".
+    const auto rounded = [](double value) { return std::round(1000 * value) / 1000 + 0.0; };
+    return fmt::format("{:.3f}° ({:.3f} %)", rounded(glm::degrees(slopeRad)),
+                       rounded(100 * std::tan(slopeRad)));
+}
+
+std::string lengthText(double metres) {
+    return std::abs(metres) < 10'000 ? fmt::format("{:.2f} m", metres)
+                                     : fmt::format("{:.3f} km", metres / 1000);
+}
+
+std::string endText(const glm::dvec3& endM) {
+    const planet::Geographic place = planet::geographicFromDirection(endM);
+    return placeText(glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad), 6);
+}
+
+void addPixelFigures(const RulerEndInPicture& a, const RulerEndInPicture& b, Figures& figures) {
+    figures.push_back({"On screen",
+                       a.atPx && b.atPx ? pixelsText(glm::distance(*a.atPx, *b.atPx)) : "behind the camera",
+                       "Distance of A and B in the picture of the planet, in its pixels."});
+    const auto pixelText = [](double metres) {
+        return metres < 1 ? fmt::format("{:.3f} m", metres) : lengthText(metres);
+    };
+    figures.push_back({"A pixel at A, at B", fmt::format("{}, {}", pixelText(a.pixelM), pixelText(b.pixelM)),
+                       "Length across the line of sight that covers one pixel in the middle of the picture, "
+                       "at the distance of each end."});
+}
+
+void addLengthFigures(const planet::ProfileSummary& summary, Figures& figures) {
+    figures.push_back({"Distance", lengthText(summary.arcM),
+                       "Along the great circle from A to B, at the radius of the planet, height 0."});
+    figures.push_back({"Along the ground", lengthText(summary.onGroundM),
+                       "Along the finest data, through 513 places at equal steps. Relief between two of them "
+                       "is not counted."});
+    figures.push_back({"Straight line", lengthText(summary.straightM),
+                       "From A to B through space, between the finest heights."});
+    figures.push_back({"Height difference", heightText(summary.riseM),
+                       "Height of B minus height of A, in the finest data."});
+    figures.push_back({"Slope", slopeText(summary.slopeRad),
+                       "Of the straight line from A to B, against the horizontal in its middle; upwards is "
+                       "positive."});
+    figures.push_back({"Steepest", slopeText(summary.steepestRad),
+                       "Between two neighbouring places of the profile, the one of the largest magnitude."});
+    figures.push_back({"Ascent, descent",
+                       fmt::format("{}, {}", heightText(summary.ascentM), heightText(summary.descentM)),
+                       "Sums of all rises and of all falls on the way from A to B."});
+    figures.push_back({"Lowest, highest",
+                       fmt::format("{}, {}", heightText(summary.lowestM), heightText(summary.highestM)),
+                       "Heights of the finest data along the way."});
+}
+
+void addDrawnFigures(const MeasuredGround& measured, Figures& figures) {
+    const planet::ProfileSummary& summary = measured.summary;
+    const std::size_t points = measured.profile.points.size();
+    figures.push_back({"Largest error",
+                       summary.drawn == 0 ? "nothing is drawn"
+                                          : fmt::format("{} at {}", lengthText(summary.worstErrorM),
+                                                        lengthText(summary.worstAlongM)),
+                       "Largest height difference of the drawn surface from the finest data along the way, "
+                       "and its distance from A. Places without a drawn chunk are not counted."});
+    if (summary.drawn == 0 || summary.drawn >= points) return;
+    figures.push_back(
+        {"Drawn",
+         fmt::format("{:.0f} %", 100.0 * static_cast<double>(summary.drawn) / static_cast<double>(points)),
+         "Share of the places at which a chunk is drawn; the rest is culled.", FigureMood::Warning});
 }
 
 }  // namespace
@@ -205,6 +276,22 @@ Figures depthFigures(const DepthSteps& depth) {
         {depth.reversedInUse ? "Non-reversed Z" : "Non-reversed Z, in use", stepText(depth.fallbackM),
          "Distance in metres between adjacent depth values with conventional OpenGL depth, used without clip "
          "control; the near plane follows the height above ground. None: outside the near and far planes."});
+    return figures;
+}
+
+std::string heightText(double metres) {
+    return std::abs(metres) < 100 ? fmt::format("{:.2f} m", metres) : fmt::format("{:.0f} m", metres);
+}
+
+Figures rulerFigures(const RulerView& ruler) {
+    Figures figures;
+    constexpr std::array names = {"A", "B"};
+    for (std::size_t i = 0; i < std::min(ruler.ends.size(), names.size()); ++i)
+        figures.push_back({names[i], endText(ruler.ends[i]), "Latitude and longitude of this end."});
+    if (ruler.inPicture.size() == 2) addPixelFigures(ruler.inPicture[0], ruler.inPicture[1], figures);
+    if (!ruler.measured) return figures;
+    addLengthFigures(ruler.measured->summary, figures);
+    addDrawnFigures(*ruler.measured, figures);
     return figures;
 }
 

@@ -10,6 +10,7 @@
 #include "ui/model/errors_view.h"
 #include "ui/model/light_view.h"
 #include "ui/model/pops_view.h"
+#include "ui/model/ruler_view.h"
 
 namespace worldy::ui {
 
@@ -33,7 +34,11 @@ Figures popFigures(const planet::PopMeter& meter, double medianPx);
 Figures precisionFigures(const planet::VertexPrecision& precision);
 Figures depthFigures(const DepthSteps& depth);
 Figures costFigures(const std::vector<PartCost>& costs);
+// Returns the figures of the ends that there are, and of the ground between them once it is measured.
+Figures rulerFigures(const RulerView& ruler);
 
+// Returns a height with all metres, and with centimetres below 100 m: "8849 m", "12.34 m".
+std::string heightText(double metres);
 // Formats with more digits than pixelsText(), because the errors compared are often 0.1 px.
 std::string finePx(double px, const char* unit = " px");
 inline constexpr double leastPopPx = 0.001;  // smaller jumps are all shown as less than this

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/planet_fixture.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/model/figures.h"
@@ -42,7 +44,7 @@ protected:
 };
 
 TEST_F(SessionReport, whatWasNotMeasuredSaysSo) {
-    for (const char* heading : {"### True error", "### Cracks", "### Pops", "### Precision",
+    for (const char* heading : {"### True error", "### Cracks", "### Pops", "### Precision", "### Ruler",
                                 "### Costs of features", "### Sweep", "### Comparison"})
         EXPECT_THAT(section(heading), HasSubstr("Not measured.")) << heading;
     EXPECT_THAT(section("## Settings that differ from the defaults"),
@@ -70,6 +72,30 @@ TEST_F(SessionReport, figuresAreThoseOfThePanels) {
     for (const ui::Figure& figure : ui::skirtFigures(measured, &smallest))
         EXPECT_THAT(text, HasSubstr("| " + figure.name + " | " + figure.value + " |"));
     EXPECT_THAT(text, HasSubstr("| Smallest factor | 0.021 |"));
+}
+
+TEST_F(SessionReport, theRulerIsToldWithItsProfile) {
+    const double radiusM = planet_->tree().shape.radiusM;
+    const std::vector<glm::dvec3> ends = {{radiusM, 0, 0}, {0, radiusM, 0}};
+    view_.instruments.ruler.ends = ends;
+    EXPECT_THAT(section("### Ruler"), HasSubstr("not measured yet"));
+    MeasuredGround ground;
+    for (int i = 0; i <= 512; ++i)  // rises from 100 m to 612 m, and is drawn 3 m too high but for the end
+        ground.profile.points.push_back(
+            {ends[0] / radiusM, 10.0 * i, 100.0 + i, i < 512 ? std::optional(103.0 + i) : std::nullopt});
+    ground.summary.arcM = 5120;
+    ground.summary.riseM = 512;
+    ground.summary.slopeRad = std::atan(0.1);
+    view_.instruments.ruler.measured = &ground;
+    const std::string text = section("### Ruler");
+    EXPECT_THAT(text, HasSubstr("Out of date"));
+    EXPECT_THAT(text, HasSubstr("| Distance | 5120.00 m |"));
+    EXPECT_THAT(text, HasSubstr("| Height difference | 512 m |"));
+    EXPECT_THAT(text, HasSubstr("| Slope | 5.711° (10.000 %) |"));
+    EXPECT_THAT(text, HasSubstr("| 100 m | 103 m |"));
+    EXPECT_THAT(text, HasSubstr("| 612 m | - |"));
+    view_.instruments.ruler.current = true;
+    EXPECT_THAT(section("### Ruler"), Not(HasSubstr("Out of date")));
 }
 
 TEST_F(SessionReport, textsOfUsersCannotChangeItsLayout) {

@@ -15,6 +15,7 @@
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/model/figures.h"
 
 namespace worldy::ui {
 
@@ -113,10 +114,6 @@ ExportTable profileTable(const planet::GroundProfile& profile) {
 }
 
 }  // namespace
-
-std::string heightText(double metres) {
-    return std::abs(metres) < 100 ? fmt::format("{:.2f} m", metres) : fmt::format("{:.0f} m", metres);
-}
 
 void rulerProfile(const planet::GroundProfile& profile, const planet::ProfileSummary& summary, float lines) {
     const std::vector<std::pair<const char*, ImVec4>> names = {{"finest data", seriesColour(0)},
