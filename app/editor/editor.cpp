@@ -273,6 +273,8 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     if (step.goesOn)
         frames_.recorder.noteStep(*scene.planet, instruments_.changes, instruments_.pops.meter,
                                   frames_.timeS);
+    if (settings.overlay.notes)
+        coverPins(files_.notes, *scene.planet, viewport_.main.view, settings.surface.exaggeration);
     advanceErrorMeter(*scene.planet, frames_.frame, frames_.timeS, instruments_.errors);
     advanceRuler(*scene.planet, frames_.timeS, instruments_.ruler);
     stepCompared(compare_,

@@ -9,6 +9,7 @@
 
 #include "app/base/new_file.h"
 #include "ui/model/docking.h"
+#include "ui/model/note_subjects.h"
 
 namespace worldy {
 
@@ -34,6 +35,7 @@ Result<std::string> add(NotesController& notes, Note note) {
 void openNotes(NotesController& notes, const std::filesystem::path& file, Notices& notices) {
     notes.book = openNotebook(file);
     notes.open.reset();
+    notes.covered.clear();
     if (notes.book.problem.empty()) return;
     tellError(notices, {"The notes cannot be read", notes.book.problem,
                         fmt::format("The file is left as it is. Until it is mended, notes are kept in {}.",
@@ -80,6 +82,22 @@ void advanceNotes(NotesController& notes, const OpenPlanet* shown, double timeS,
         confirm(notices, fmt::format("Notes: {} can be read again", notes.book.file.string()));
 }
 
+void coverPins(NotesController& notes, const planet::Planet& planet, const planet::View& view,
+               double exaggeration) {
+    constexpr std::size_t mostPins = 32;  // about 1 ms
+    const planet::ChunkTree& tree = planet.tree();
+    const std::vector<Note>& all = notes.book.notes;
+    std::size_t looked = 0;
+    for (std::size_t i = 0; i < all.size() && looked < mostPins; ++i) {
+        const Note& note = all[notes.nextPin++ % all.size()];
+        std::erase(notes.covered, note.id);
+        const glm::dvec3 placeM = ui::placeOfNote(note, tree.shape.radiusM, exaggeration);
+        if (!ui::pinInPicture(view, placeM, tree.shape.radiusM)) continue;
+        ++looked;
+        if (ui::isCoveredPin(tree, planet.selection().draw, view, placeM)) notes.covered.push_back(note.id);
+    }
+}
+
 void execute(NotesController& notes, const ui::NoteCommand& command, Workspace& workspace, Notices& notices) {
     const Result<std::string> done = std::visit(Executor{notes}, command);
     if (!done) return tellError(notices, {"The note was not saved", done.error().message, ""});
@@ -92,7 +110,8 @@ ui::NotesView notesViewOf(const NotesController& notes) {
             .file = notes.book.writesTo,
             .problem = notes.book.problem,
             .open = notes.open,
-            .opened = notes.opened};
+            .opened = notes.opened,
+            .covered = notes.covered};
 }
 
 }  // namespace worldy

@@ -9,7 +9,9 @@
 
 #include "app/base/text.h"
 #include "app/scene/camera_control.h"
+#include "planet/measure/pick.h"
 #include "planet/sphere/cube_sphere.h"
+#include "ui/model/figures.h"
 
 namespace worldy::ui {
 
@@ -91,6 +93,75 @@ NoteSubject popSubject(const EditorView& view, double exaggeration) {
     return subject;
 }
 
+// A note about figures that have no place of their own lies where the view looks.
+NoteSubject subjectInView(const EditorView& view, const glm::dvec3& middleM, double exaggeration,
+                          const char* label, const char* what, std::string measurement, const char* whyNot) {
+    NoteSubject subject{label, std::nullopt, whyNot};
+    if (measurement.empty()) return subject;
+    // Longer texts would be refused.
+    if (measurement.size() > longestNoteBytes)
+        measurement = measurement.substr(0, measurement.rfind("; ", longestNoteBytes - 5)) + "; ...";
+    subject.note = about(noteAt(view, middleM, exaggeration), what, std::move(measurement));
+    return subject;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string rulerText(const RulerView& ruler) {
+    if (!ruler.measured) return {};
+    std::vector<std::string> parts;
+    for (const Figure& figure : rulerFigures(ruler))
+        parts.push_back(fmt::format("{} {}", figure.name, figure.value));
+    return joined(parts);
+}
+
+std::string costsText(const std::vector<PartCost>& costs) {
+    std::vector<std::string> parts;
+    for (const Figure& figure : costFigures(costs))
+        parts.push_back(fmt::format("{} {}", figure.name, figure.value));
+    return joined(parts);
+}
+
+// The points on the front of triangles and true error, and the suggested tolerances.
+std::string sweepText(const SweepView& sweep) {
+    std::vector<std::string> parts;
+    if (sweep.table && !sweep.table->points.empty()) {
+        std::vector<SweepPoint> points = sweep.table->points;
+        markFront(points, SweepCost::Triangles);
+        parts.push_back(fmt::format("over {}, {} points{}, on the front", sweep.table->flight, points.size(),
+                                    sweep.table->whole ? "" : " of an incomplete sweep"));
+        for (const SweepPoint& point : points) {
+            if (!point.onFront) continue;
+            parts.push_back(fmt::format("{}: {} triangles, max true error {:.3g} px",
+                                        settingText(point.chunkSize, point.metric, point.tauPx, "τ"),
+                                        countText(point.figures.meanTriangles),
+                                        point.figures.worstMeasuredPx));
+        }
+    }
+    for (const SweepSuggestion& one : sweep.suggestions)
+        parts.push_back(fmt::format("{}, chunk size {}: {}", metricName(one.metric), one.chunkSize,
+                                    suggestionText(one.goal, one.found, "τ")));
+    return joined(parts);
+}
+
+// The figures over the last flight, or else those of the current view.
+std::string comparisonText(const CompareView& compare) {
+    const bool isOfFlight = compare.flight.last != nullptr;
+    if (!isOfFlight && !compare.on) return {};
+    const std::array<ComparedFigures, 2>& sides = isOfFlight ? *compare.flight.last : compare.now;
+    std::vector<std::string> parts;
+    parts.push_back(isOfFlight ? compare.flight.lastName : fmt::format("this view, B: {}", compare.origin));
+    for (const CompareRow& row : compareRows()) {
+        const auto& a = sides[0].*row.value;
+        const auto& b = sides[1].*row.value;
+        if (!(isOfFlight ? row.flight : row.live) || !a || !b) continue;
+        parts.push_back(fmt::format("{} {}, {}", row.name, figureText(row, a), figureText(row, b)));
+    }
+    return joined(parts);
+}
+
 NoteSubject precisionSubject(const EditorView& view, double exaggeration) {
     NoteSubject subject{"the vertex last under the pointer", std::nullopt,
                         "Show the Precision panel and point at the ground."};
@@ -147,6 +218,19 @@ std::optional<glm::dvec2> pinInPicture(const planet::View& view, const glm::dvec
     return at;
 }
 
+bool isCoveredPin(const planet::ChunkTree& tree, std::span<const planet::DrawItem> drawn,
+                  const planet::View& view, const glm::dvec3& placeM) {
+    // The ray ends above the foot, so that the drawn level may differ from the ground by some pixels.
+    constexpr double aboveFootPx = 8;
+    const double pixelRad = 2 * std::tan(view.horizontalFovRad / 2) / std::max(view.widthPx, 1);
+    const double aboveFootM = aboveFootPx * pixelRad * glm::distance(placeM, view.eyeM);
+    const glm::dvec3 seen = placeM + aboveFootM * glm::normalize(placeM);
+    const double distanceM = glm::distance(seen, view.eyeM);
+    if (distanceM == 0) return false;
+    const auto hit = planet::pickSurface(tree, drawn, view.eyeM, seen - view.eyeM);
+    return hit && hit->distanceM < distanceM;
+}
+
 std::vector<NoteSubject> noteSubjects(const EditorView& view, double exaggeration) {
     if (!view.planet) return {};
     const glm::dvec3 middle = groundInMiddle(view.camera.renderView, view.planet->tree());
@@ -156,6 +240,18 @@ std::vector<NoteSubject> noteSubjects(const EditorView& view, double exaggeratio
     subjects.push_back(crackSubject(view, exaggeration));
     subjects.push_back(popSubject(view, exaggeration));
     subjects.push_back(precisionSubject(view, exaggeration));
+    const RulerView& ruler = view.instruments.ruler;
+    subjects.push_back(subjectInView(view, ruler.ends.empty() ? middle : ruler.ends.front(), exaggeration,
+                                     "the ruler", "ruler", rulerText(ruler),
+                                     "Measure the ground between two places in the Ruler panel first."));
+    subjects.push_back(subjectInView(view, middle, exaggeration, "the costs of features", "costs",
+                                     costsText(view.instruments.light.costs),
+                                     "Measure the features in the Frame panel first."));
+    subjects.push_back(subjectInView(view, middle, exaggeration, "the sweep", "sweep", sweepText(view.sweep),
+                                     "Run a sweep or search for a tolerance in the Sweep panel first."));
+    subjects.push_back(subjectInView(view, middle, exaggeration, "the comparison", "comparison",
+                                     comparisonText(view.compare),
+                                     "Compare with another planet in the Compare panel first."));
     return subjects;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,9 @@ glm::dvec3 placeOfNote(const Note& note, double radiusM, double exaggeration);
 // Returns where a place is in the picture, in its pixels from the top left; none if it is behind the camera, outside the
 // picture or behind the horizon of a sphere below the place.
 std::optional<glm::dvec2> pinInPicture(const planet::View& view, const glm::dvec3& placeM, double radiusM);
+
+// Returns true if the drawn ground lies in front of a pin. drawn: the chunks that the picture shows, which are in the tree.
+bool isCoveredPin(const planet::ChunkTree& tree, std::span<const planet::DrawItem> drawn,
+                  const planet::View& view, const glm::dvec3& placeM);
 
 }  // namespace worldy::ui

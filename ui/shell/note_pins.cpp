@@ -27,7 +27,8 @@ struct Pin {
     ImVec2 foot;
     Rect box;
     std::string words;
-    bool hasWords = true;  // false where they would cover another pin's
+    bool isCovered = false;  // behind the drawn ground
+    bool hasWords = true;    // false where they would cover another pin's, and behind the ground
 };
 
 bool overlap(const Rect& a, const Rect& b) {
@@ -65,6 +66,8 @@ std::vector<Pin> pinsIn(const EditorView& view, const ViewSettings& settings, co
                               one.whole.y + scale * static_cast<float>(at->y));
             if (foot.x > one.part.x + one.part.width || foot.x < one.part.x) continue;
             pins.push_back(pinAt(note, foot, one.part));
+            pins.back().isCovered =
+                std::ranges::find(view.notes.covered, note.id) != view.notes.covered.end();
         }
     }
     std::stable_sort(pins.begin(), pins.end(), [&](const Pin& a, const Pin& b) {
@@ -73,23 +76,26 @@ std::vector<Pin> pinsIn(const EditorView& view, const ViewSettings& settings, co
     });
     std::vector<Rect> taken;
     for (Pin& pin : pins) {
-        pin.hasWords = std::none_of(taken.begin(), taken.end(),
-                                    [&](const Rect& other) { return overlap(other, pin.box); });
+        pin.hasWords = !pin.isCovered && std::none_of(taken.begin(), taken.end(), [&](const Rect& other) {
+            return overlap(other, pin.box);
+        });
         if (pin.hasWords) taken.push_back(pin.box);
     }
     return pins;
 }
 
 void drawPin(ImDrawList& list, const Pin& pin, bool isOpen) {
-    const ImVec4& colour = isOpen ? palette().warning : palette().accent;
+    constexpr float coveredAlpha = 0.4f;
+    const ImU32 colour =
+        packed(isOpen ? palette().warning : palette().accent, pin.isCovered ? coveredAlpha : 1);
     const float radius = std::round(ImGui::GetFontSize() * 0.28f);
     const float bottom = pin.box.y + pin.box.height;
-    list.AddLine(pin.foot, {pin.foot.x, bottom}, packed(colour), std::max(ImGui::GetFontSize() / 9, 1.0f));
-    list.AddCircleFilled(pin.foot, radius * 0.7f, packed(colour));
-    if (!pin.hasWords) return list.AddCircleFilled({pin.foot.x, bottom}, radius, packed(colour));
+    list.AddLine(pin.foot, {pin.foot.x, bottom}, colour, std::max(ImGui::GetFontSize() / 9, 1.0f));
+    list.AddCircleFilled(pin.foot, radius * 0.7f, colour);
+    if (!pin.hasWords) return list.AddCircleFilled({pin.foot.x, bottom}, radius, colour);
     const ImVec2 end(pin.box.x + pin.box.width, bottom);
     list.AddRectFilled({pin.box.x, pin.box.y}, end, boxColour(), radius);
-    list.AddRect({pin.box.x, pin.box.y}, end, packed(colour), radius);
+    list.AddRect({pin.box.x, pin.box.y}, end, colour, radius);
     const float pad = std::round(ImGui::GetFontSize() * 0.3f);
     list.AddText({pin.box.x + pad, pin.box.y + pad / 2}, packed(palette().text), pin.words.c_str());
 }
@@ -108,7 +114,7 @@ void notePinItems(const EditorView& view, const ViewSettings& settings, const Re
         if (ImGui::InvisibleButton(id.c_str(), {area.width, area.height}))
             commands.emplace_back(OpenNote{pin.note->id});
         noteItem(id);
-        tooltip([&] { return pin.note->text; });
+        tooltip([&] { return pin.note->text + (pin.isCovered ? "\n\nBehind the ground." : ""); });
     }
     ImGui::SetCursorScreenPos(cursor);
 }

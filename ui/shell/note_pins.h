@@ -10,7 +10,7 @@ namespace worldy::ui {
 void notePinItems(const EditorView& view, const ViewSettings& settings, const Rect& viewport,
                   Commands& commands);
 
-// Draws the pins into the current window, over the picture.
+// Draws the pins into the current window, over the picture: those behind the ground faintly and without words.
 void drawNotePins(const EditorView& view, const ViewSettings& settings, const Rect& viewport);
 
 }  // namespace worldy::ui

@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "tests/support/planet_fixture.h"
 
@@ -57,6 +63,57 @@ TEST(NotePins, whatIsBehindTheCameraOrOutsideThePictureHasNoPin) {
 
 TEST(NotePins, exaggerationLiftsThePlace) {
     EXPECT_NEAR(glm::length(placeOfNote(noteAt(20, 10, 1000), radiusM, 3)), radiusM + 3000, 1e-6);
+}
+
+// A planet of six chunks, flat but for a wall along the meridian 0, which falls to both sides within a cell.
+planet::ChunkTree planetWithWall(double wallOfRadius) {
+    const planet::FakePyramid& pyramid = planet::fakePyramid();
+    const int side = planet::chunkSize(pyramid.shape);
+    const auto stepAt = [&](double heightM) {
+        return static_cast<std::int32_t>(
+            std::lround((heightM - pyramid.shape.baseHeightM) / pyramid.shape.quantumM));
+    };
+    std::array<planet::ChunkData, planet::faceCount> roots = pyramid.roots();
+    for (planet::ChunkData& root : roots) {
+        root.children = {};
+        root.deltaCM = root.deltaTightM = 0;
+        std::vector<std::int32_t> steps(static_cast<std::size_t>(side * side), stepAt(0));
+        if (root.id.face == planet::Face::PosX) {
+            for (int row = 0; row < side; ++row)
+                steps[static_cast<std::size_t>(row * side + side / 2)] =
+                    stepAt(wallOfRadius * pyramid.shape.radiusM);
+        }
+        root.minStep = *std::min_element(steps.begin(), steps.end());
+        root.maxStep = *std::max_element(steps.begin(), steps.end());
+        root.heights = planet::Steps(std::span<const std::int32_t>(steps));
+    }
+    return planet::makeChunkTree(pyramid.shape, stepAt(0), stepAt(0.08 * pyramid.shape.radiusM),
+                                 std::move(roots))
+        .value();
+}
+
+// A camera west of the wall, at 0.3 radii, sees a place east of it over the wall at 0.043 radii.
+bool isCovered(double wallOfRadius, double placeLongitudeDeg) {
+    const planet::ChunkTree tree = planetWithWall(wallOfRadius);
+    const double ownM = tree.shape.radiusM;
+    const planet::View view = planet::viewFromPose({0, -22.5, 0.3 * ownM, 90, -30}, ownM, 1.5, 1000, 600);
+    std::vector<planet::DrawItem> drawn;
+    for (planet::NodeIndex i = 0; i < tree.nodes.size(); ++i)
+        drawn.push_back({.node = i, .id = tree.nodes[i].id});
+    const glm::dvec3 placeM = placeOfNote(noteAt(0, placeLongitudeDeg), ownM, 1);
+    EXPECT_TRUE(pinInPicture(view, placeM, ownM));
+    return isCoveredPin(tree, drawn, view, placeM);
+}
+
+TEST(NotePins, aMountainCoversThePinBehindIt) {
+    EXPECT_TRUE(isCovered(0.06, 11.25));
+    EXPECT_FALSE(isCovered(0.03, 11.25)) << "the pin is seen over the wall";
+    EXPECT_FALSE(isCovered(0.06, -8)) << "the pin lies in front of the wall";
+}
+
+TEST(NotePins, flatGroundCoversNoPinInFrontOfTheHorizon) {
+    for (double longitudeDeg = -10; longitudeDeg <= 14; longitudeDeg += 3)
+        EXPECT_FALSE(isCovered(0, longitudeDeg)) << longitudeDeg;
 }
 
 class NoteSubjects : public testing::Test {
@@ -131,6 +188,58 @@ TEST_F(NoteSubjects, aMeasurementIsNotedWhereItIsWorstWithItsFigures) {
     EXPECT_NEAR(cracks.note->longitudeDeg, 90, 1e-9);
     EXPECT_EQ(cracks.note->about, "cracks");
     EXPECT_NE(cracks.note->measurement.find("gap 12 m"), std::string::npos) << cracks.note->measurement;
+}
+
+TEST_F(NoteSubjects, costsASweepAComparisonAndTheRulerAreNotedWithTheirFigures) {
+    const double own = planet_->tree().shape.radiusM;
+    view_.camera.renderView = planet::viewFromPose({20, 10, own, 0, -90}, own, 1, 1000, 600);
+    for (const char* label : {"the costs of features", "the sweep", "the comparison", "the ruler"})
+        EXPECT_FALSE(subject(label).note) << label;
+
+    view_.instruments.light.costs = {{"shadows", 10, 14}};
+    SweepTable table;
+    table.flight = "andes low";
+    table.points = {{33, planet::ErrorMetric::Additive, 2, {.meanTriangles = 1000, .worstMeasuredPx = 1.5}},
+                    {33, planet::ErrorMetric::Additive, 4, {.meanTriangles = 2000, .worstMeasuredPx = 3}}};
+    view_.sweep.table = &table;
+    std::array<ComparedFigures, 2> sides;
+    sides[0].triangles = 1000;
+    sides[1].triangles = 500;
+    view_.compare.flight.last = &sides;
+    view_.compare.flight.lastName = "andes low, 12 sample frames";
+    const std::vector<glm::dvec3> ends = {{own, 0, 0}, {0, own, 0}};
+    MeasuredGround ground;
+    ground.summary.riseM = 42;
+    view_.instruments.ruler.ends = ends;
+    view_.instruments.ruler.measured = &ground;
+
+    const auto figures = [&](const char* label) { return subject(label).note->measurement; };
+    EXPECT_EQ(figures("the costs of features"), "shadows +4.0 ms, 1.40 x");
+    const std::string sweep = figures("the sweep");
+    EXPECT_NE(sweep.find("over andes low, 2 points"), std::string::npos) << sweep;
+    EXPECT_NE(sweep.find("\u03c4 2 px: 1000 triangles, max true error 1.5 px"), std::string::npos) << sweep;
+    EXPECT_EQ(sweep.find("\u03c4 4 px"), std::string::npos) << "not on the front: " << sweep;
+    EXPECT_NE(figures("the comparison").find("Triangles 1000, 500"), std::string::npos)
+        << figures("the comparison");
+    EXPECT_NE(figures("the ruler").find("Height difference 42.00 m"), std::string::npos);
+    EXPECT_EQ(subject("the ruler").note->longitudeDeg, 0);
+    EXPECT_NEAR(subject("the sweep").note->longitudeDeg, 10, 1e-6);
+}
+
+TEST_F(NoteSubjects, longFiguresAreShortenedToWhatANoteHolds) {
+    const double own = planet_->tree().shape.radiusM;
+    view_.camera.renderView = planet::viewFromPose({}, own, 1, 1000, 600);
+    SweepTable table;
+    table.flight = "andes low";
+    for (int i = 0; i < 200; ++i)
+        table.points.push_back({33,
+                                planet::ErrorMetric::Additive,
+                                1.0 + i,
+                                {.meanTriangles = 1000.0 - i, .worstMeasuredPx = 1.0 + i}});
+    view_.sweep.table = &table;
+    const std::string text = subject("the sweep").note->measurement;
+    EXPECT_LE(text.size(), longestNoteBytes);
+    EXPECT_TRUE(text.ends_with(" px; ...")) << text.substr(text.size() - 20);
 }
 
 }  // namespace
