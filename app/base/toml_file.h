@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
 #include <string>
 
 #include "planet/source/toml_file.h"
@@ -24,6 +25,13 @@ using planet::textOf;
 inline tl::unexpected<planet::Error> wrong(const std::filesystem::path& file, const toml::node& node,
                                            const std::string& message) {
     return planet::badInput(fmt::format("{}: {}", placeOf(file, node), message));
+}
+
+// Returns a text as a TOML string in quotes.
+inline std::string tomlText(const std::string& text) {
+    std::ostringstream stream;
+    stream << toml::value<std::string>(text);
+    return stream.str();
 }
 
 }  // namespace worldy

@@ -33,11 +33,11 @@ struct OpenSettings {
     fs::path file;
     std::string textBefore;  // of the settings as they were read or saved last
     bool mayBeSaved = true;  // false: the file could not be read and is not overwritten
+    std::string problem{};   // why the defaults are used instead, a sentence; empty: they are not
 };
 
-// Reads the settings. A file named by the user must be valid; if the user's own is not, a warning is logged
-// and defaults are used.
-Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
+// Reads the settings. A file named by the user must be valid; if the user's own is not, defaults are used.
+Result<OpenSettings> openSettings(const AppOptions& options) {
     OpenSettings open;
     const bool named = !options.settingsFile.empty();
     open.file = named ? options.settingsFile : configFolder() / "settings.toml";
@@ -48,7 +48,8 @@ Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
         if (loaded)
             open.settings = *loaded;
         else
-            log->warn("{}; using the defaults and leaving the file unchanged", loaded.error().message);
+            open.problem =
+                fmt::format("{}; using the defaults and leaving the file unchanged.", loaded.error().message);
         // A screenshot provides settings but is never overwritten.
         open.mayBeSaved = loaded.has_value() && !isPng(open.file);
     }
@@ -56,12 +57,11 @@ Result<OpenSettings> openSettings(const AppOptions& options, const Log& log) {
     return open;
 }
 
-void saveIfChanged(OpenSettings& open, const Settings& now, const Log& log) {
+Result<void> saveIfChanged(OpenSettings& open, const Settings& now) {
     const std::string text = settingsText(now);
-    if (!open.mayBeSaved || text == open.textBefore) return;
+    if (!open.mayBeSaved || text == open.textBefore) return {};
     open.textBefore = text;
-    if (const Result<void> saved = saveSettings(now, open.file); !saved)
-        log->error("{}", saved.error().message);
+    return saveSettings(now, open.file);
 }
 
 Result<DataSet> chosenDataSet(const AppOptions& options, const Settings& settings) {
@@ -93,25 +93,68 @@ Result<CheckedData> checked(const DataSet& set) {
     return planet::ChunkFile::open(set.chunkFile).map([&](const auto&) { return CheckedData{set, {}}; });
 }
 
+// The session that a start goes on with.
+struct Resumed {
+    LastSession session;
+    KeptResults results;
+    std::string problem;  // why it or a part of it is not opened, sentences; empty: it is
+
+    void add(const std::string& sentence) { problem += (problem.empty() ? "" : "\n") + sentence; }
+};
+
 // Returns the last session if the window is to go on with it, else an empty one.
-LastSession sessionToResume(const AppOptions& options, const Settings& settings, const Log& log) {
+Resumed sessionToResume(const AppOptions& options, const Settings& settings) {
+    Resumed resumed;
     if (!options.file.empty() || !settings.dataSet.empty() || !settings.workspace.preferences.resume)
-        return {};
+        return resumed;
     Result<LastSession> last = loadLastSession(lastSessionFile());
-    if (last) return std::move(*last);
-    log->warn("{}; the last session is not opened", last.error().message);
-    return {};
+    if (!last) {
+        resumed.add(fmt::format("{}; the last session is not opened.", last.error().message));
+        return resumed;
+    }
+    resumed.session = std::move(*last);
+    Result<KeptResults> results = loadKeptResults(keptResultsFile());
+    if (results)
+        resumed.results = std::move(*results);
+    else
+        resumed.add(
+            fmt::format("{}; the results of the last session are not shown.", results.error().message));
+    return resumed;
+}
+
+// Returns why a bake of a source cannot be shown for it; empty if it can.
+std::string whyNotBake(const fs::path& source, const fs::path& bake) {
+    if (const auto file = planet::ChunkFile::open(bake); !file) return file.error().message;
+    std::error_code noSource, noBake;
+    const fs::file_time_type changed = fs::last_write_time(source, noSource);
+    const fs::file_time_type baked = fs::last_write_time(bake, noBake);
+    const bool isOlder = !noSource && !noBake && baked < changed;
+    return isOlder ? fmt::format("{} is newer than {}", source.string(), bake.string()) : std::string();
+}
+
+// Finds the data set of the last session with the bake that was shown.
+Result<DataSet> dataSetOf(Resumed& resumed) {
+    const LastSession& last = resumed.session;
+    Result<DataSet> set = findDataSet(last.file, {}, {}, std::nullopt);
+    if (!set || last.bake.empty() || last.bake == set->chunkFile) return set;
+    if (const std::string whyNot = whyNotBake(last.file, last.bake); !whyNot.empty()) {
+        resumed.add(
+            fmt::format("{}; {} is shown with its default bake settings.", whyNot, sourceName(last.file)));
+        return set;
+    }
+    set->chunkFile = last.bake;
+    set->needsBake = false;
+    return set;
 }
 
 // Returns the planet of the last session, or the one that the options ask for. A last session that cannot be opened is
 // emptied.
-Result<CheckedData> dataToShow(const AppOptions& options, const Settings& settings, LastSession& last,
-                               const Log& log) {
-    if (!last.file.empty()) {
-        Result<CheckedData> again = findDataSet(last.file, {}, {}, std::nullopt).and_then(checked);
+Result<CheckedData> dataToShow(const AppOptions& options, const Settings& settings, Resumed& resumed) {
+    if (!resumed.session.file.empty()) {
+        Result<CheckedData> again = dataSetOf(resumed).and_then(checked);
         if (again) return again;
-        log->warn("{}; the planet of the last session is not opened", again.error().message);
-        last = {};
+        resumed = {};
+        resumed.add(fmt::format("{}; the planet of the last session is not opened.", again.error().message));
     }
     return chosenDataSet(options, settings).and_then(checked);
 }
@@ -126,39 +169,62 @@ public:
         return sinceKept_.elapsedS() > intervalS;
     }
 
-    // session: lastSessionText(); empty: not known.
-    void keep(const Settings& settings, const std::string& session, const Log& log) {
+    // session, results: lastSessionText(), keptResultsText(); empty: not known. Returns the first Error of writing.
+    Result<void> keep(const Settings& settings, const std::string& session, const std::string& results) {
         sinceKept_ = {};
-        saveIfChanged(open_, settings, log);
-        if (!maySaveSession_ || session.empty() || session == session_) return;
-        session_ = session;
-        if (const Result<void> saved = writeTextFile(lastSessionFile(), session); !saved)
-            log->error("{}", saved.error().message);
+        Result<void> kept = saveIfChanged(open_, settings);
+        for (const Result<void>& one : {keepText(session_, session), keepText(results_, results)})
+            if (kept && !one) kept = one;
+        return kept;
     }
 
 private:
+    struct KeptText {
+        fs::path file;
+        bool mayBeWritten;   // a file that could not be read is not overwritten
+        std::string text{};  // as it was written last
+    };
+    static Result<void> keepText(KeptText& kept, const std::string& text) {
+        if (!kept.mayBeWritten || text.empty() || text == kept.text) return {};
+        kept.text = text;
+        return writeTextFile(kept.file, text);
+    }
+
     OpenSettings open_;
-    std::string session_;  // as it was written last
-    // A file that could not be read is not overwritten.
-    bool maySaveSession_ = loadLastSession(lastSessionFile()).has_value();
+    KeptText session_{lastSessionFile(), loadLastSession(lastSessionFile()).has_value()};
+    KeptText results_{keptResultsFile(), loadKeptResults(keptResultsFile()).has_value()};
     Stopwatch sinceKept_;
 };
 
 int runWindow(Window& window, const AppOptions& options, CheckedData data, const OpenSettings& open,
-              const LastSession& last, Log& log) {
+              const Resumed& resumed, Log& log) {
     window.setTitle(fmt::format("{} - Worldy", sourceName(data.set.source)));
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data.set), options.shaderFolder, log, std::move(data.source));
     session.shaders.worker = window.makeShaderWorker();
     Editor editor(open.settings, log);
     editor.keepItemMap(options.itemMapFile);
-    editor.resume(isTraceFile(options.file) ? LastSession{.trace = options.file} : last);
+    if (isTraceFile(options.file))
+        editor.resume({.trace = options.file}, {}, {});
+    else
+        editor.resume(resumed.session, resumed.results, resumed.problem);
     StateKeeper keeper(open);
+    bool isFailureTold = false;
     const auto keep = [&] {
         Settings settings = editor.settings();
         settings.windowWidthPx = static_cast<int>(window.width());
         settings.windowHeightPx = static_cast<int>(window.height());
-        keeper.keep(settings, shownScene(session) ? lastSessionText(editor.lastSession(session)) : "", log);
+        const bool isShown = shownScene(session) != nullptr;
+        const std::optional<KeptResults> results = editor.keptResults();
+        const Result<void> kept =
+            keeper.keep(settings, isShown ? lastSessionText(editor.lastSession(session)) : "",
+                        isShown && results ? keptResultsText(*results) : "");
+        if (kept) return;
+        // A full disk is told once, not every half minute.
+        if (std::exchange(isFailureTold, true))
+            log->error("{}", kept.error().message);
+        else
+            editor.tell("The settings and the session were not saved", kept.error().message);
     };
     auto lastFrame = std::chrono::steady_clock::now();
     while (!window.closing()) {
@@ -206,10 +272,11 @@ Result<void> writeFirstView(const AppOptions& options, const CheckedData& data, 
 
 int runApp(const AppOptions& options) {
     Log log;
-    const Result<OpenSettings> open = openSettings(options, log);
+    const Result<OpenSettings> open = openSettings(options);
     if (!open) return reportError(open.error());
-    LastSession last = sessionToResume(options, open->settings, log);
-    const Result<CheckedData> data = dataToShow(options, open->settings, last, log);
+    Resumed resumed = sessionToResume(options, open->settings);
+    if (!open->problem.empty()) resumed.add(open->problem);
+    const Result<CheckedData> data = dataToShow(options, open->settings, resumed);
     if (!data) return reportError(data.error());
 
     std::error_code status;
@@ -217,10 +284,11 @@ int runApp(const AppOptions& options) {
     auto window = Window::open({open->settings.windowWidthPx, open->settings.windowHeightPx,
                                 configFolder() / "imgui.ini", open->settings.workspace.preferences.theme,
                                 open->settings.workspace.preferences.scale});
-    if (window) return runWindow(*window, options, *data, *open, last, log);
+    if (window) return runWindow(*window, options, *data, *open, resumed, log);
     if (window.error().problem == WindowProblem::NoOpenGl) {
         return reportError({planet::ErrorKind::BadInput, window.error().message});
     }
+    if (!resumed.problem.empty()) log->warn("{}", resumed.problem);
     printMessage("worldy: no display ({}); writing a picture of the first view instead\n",
                  window.error().message);
     const Result<void> written = writeFirstView(options, *data, open->settings);

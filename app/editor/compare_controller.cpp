@@ -367,10 +367,28 @@ Result<void> compareFlight(CompareController& controller, const Session& session
     findDifferences(controller, settings);
     controller.flight.name =
         fmt::format("{}, {} sample frames. {}", plan.path.name, plan.moments, sidesText(controller));
+    controller.flight.files = {measuredFileOf(plan.sides[0].chunkFile),
+                               measuredFileOf(plan.sides[1].chunkFile)};
     controller.flight.problem.clear();
     controller.flight.last.reset();
     controller.flight.job = std::make_unique<ComparisonJob>(std::move(plan));
     return {};
+}
+
+void keepResults(const ComparedFlight& flight, KeptResults& kept) {
+    if (flight.last) kept.flight = KeptFlight{flight.name, *flight.last, flight.files};
+}
+
+void restoreResults(ComparedFlight& flight, const KeptResults& kept, const Log& log) {
+    if (!kept.flight) return;
+    if (const std::string changed = changedSince(kept.flight->files); !changed.empty()) {
+        flight.problem =
+            fmt::format("{}; the comparison over a flight of the last session is not shown", changed);
+        return log->warn("{}", flight.problem);
+    }
+    flight.last = kept.flight->figures;
+    flight.name = kept.flight->name;
+    flight.files = kept.flight->files;
 }
 
 ui::CompareView compareViewOf(CompareController& controller, const Session& session,

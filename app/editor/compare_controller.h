@@ -15,6 +15,7 @@
 #include "app/editor/viewport.h"
 #include "app/measure/comparison_job.h"
 #include "app/measure/error_job.h"
+#include "app/measure/kept_results.h"
 #include "app/settings/session_file.h"
 #include "planet/gl/measure/picture_comparer.h"
 #include "planet/measure/pop_meter.h"
@@ -55,7 +56,8 @@ inline ViewSettings comparedSettings(ViewSettings settings) {
 struct ComparedFlight {
     std::unique_ptr<ComparisonJob> job{};
     std::optional<ComparedPair> last{};
-    std::string name{};  // of the running job, or of the last one
+    std::string name{};                 // of the running job, or of the last one
+    std::vector<MeasuredFile> files{};  // of A and B, as they were when it began
     std::string problem{};
 };
 
@@ -125,6 +127,11 @@ planet::Result<void> measureCompared(CompareController& controller, Scene& a, co
 planet::Result<void> compareFlight(CompareController& controller, const Session& session,
                                    const ViewSettings& settings, const planet::View& view,
                                    const ui::CompareOverFlight& wanted);
+
+// Adds the figures over the last flight to the results that the next start shows again. Call while none is measured.
+void keepResults(const ComparedFlight& flight, KeptResults& kept);
+// Shows them again, unless a file has changed since; the flight's problem and the log then say so.
+void restoreResults(ComparedFlight& flight, const KeptResults& kept, const Log& log);
 
 // statsOfA: smoothed. Valid until the controller changes.
 ui::CompareView compareViewOf(CompareController& controller, const Session& session,

@@ -208,6 +208,25 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     writeItemMap(window_.itemMapFile, items, countersOf(sources, stats, window.queuedInput()));
 }
 
+void Editor::resume(const LastSession& session, const KeptResults& results, const std::string& problem) {
+    files_.atStart = session;
+    restoreResults(sweep_, results, notices_.log);
+    restoreResults(compare_.flight, results, notices_.log);
+    if (!problem.empty()) tell("Not all is as it was left", problem);
+}
+
+void Editor::tell(const std::string& title, const std::string& problem) {
+    tellError(notices_, {title, problem, ""});
+}
+
+std::optional<KeptResults> Editor::keptResults() const {
+    if (sweep_.job || compare_.flight.job) return std::nullopt;
+    KeptResults kept;
+    keepResults(sweep_, kept);
+    keepResults(compare_.flight, kept);
+    return kept;
+}
+
 LastSession Editor::lastSession(const Session& session) const {
     LastSession last{.file = session.data.source};
     // The next start may be in another folder. The text of a terrain is no path.
@@ -215,6 +234,9 @@ LastSession Editor::lastSession(const Session& session) const {
     if (camera_.rig) last.camera = roundedPose(poseOf(camera_.rig->camera, camera_.radiusM));
     if (files_.trace.document && !files_.trace.isLive) last.trace = files_.trace.document->file();
     if (const OpenPlanet* const open = shownPlanet(session)) {
+        const DataSet& data = open->data;
+        if (!open->isFirstLook && data.chunkFile != data.source)
+            last.bake = std::filesystem::absolute(data.chunkFile);
         last.ruler = rulerPlaces(instruments_.ruler, open->scene.planet->tree().shape.radiusM);
         if (compare_.other) last.compare = lastComparisonOf(*compare_.other, *open);
     }
@@ -237,8 +259,7 @@ void Editor::takeUpSession(const Session& session, ui::Commands& commands) {
     const std::optional<LastComparison> compare = std::exchange(last.compare, {});
     if (!compare || compare_.other) return;
     const planet::Result<void> resumed = resumeCompare(compare_, session, *compare, settings_.settings.view);
-    if (!resumed)
-        notices_.log->warn("{}; the comparison of the last session is not resumed", resumed.error().message);
+    succeeded(notices_, resumed, "The comparison of the last session was not resumed");
 }
 
 // Call when another planet is shown: the camera stays if possible, measurements are discarded.

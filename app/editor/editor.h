@@ -34,10 +34,14 @@ public:
     // Writes the positions of controls into a file after each frame.
     void keepItemMap(const std::filesystem::path& file) { window_.itemMapFile = file; }
 
-    // Opens the trace and moves the camera of a session in the first frames.
-    void resume(const LastSession& session) { files_.atStart = session; }
-    // Returns what the next start can go on with.
+    // Opens the trace and moves the camera of a session in the first frames, and shows its results. problem: why the
+    // session or a part of it cannot be opened, which the first frames tell; empty if there is none.
+    void resume(const LastSession& session, const KeptResults& results, const std::string& problem);
+    // Reports a problem in the log and in a message box.
+    void tell(const std::string& title, const std::string& problem);
+    // Return what the next start can go on with. No results are known while some are being measured.
     LastSession lastSession(const Session& session) const;
+    std::optional<KeptResults> keptResults() const;
 
     // Waits for input while nothing changes, and as the frame limit requires. Call before each frame.
     void rest(const Window& window, const Session& session);

@@ -362,10 +362,11 @@ void openBake(Session& session, const BakeRequest& request, const fs::path& chun
         log->error("{}", open.error().message);
         return;
     }
-    const bool sourceIsThere = planet::heightSourceExists(request.source);
-    open->baked.source = request.source;
-    open->baked.sourceSettings = request.sourceSettings;
-    open->sourceIsThere = sourceIsThere;
+    if (!request.source.empty()) {
+        open->baked.source = request.source;
+        open->baked.sourceSettings = request.sourceSettings;
+        open->sourceIsThere = planet::heightSourceExists(request.source);
+    }
     show(session, std::move(*open), true);
 }
 

@@ -14,6 +14,7 @@
 #include "app/flight/flight_path_file.h"
 #include "app/measure/sweep_plot.h"
 #include "app/settings/screenshot.h"
+#include "planet/source/terrain.h"
 
 namespace worldy {
 
@@ -48,6 +49,12 @@ Result<SweptFile> sweptFileOf(const OpenPlanet& open, int chunkSize) {
         findDataSet(open.baked.source, settings, open.baked.sourceSettings, sweptColour);
     if (!data) return tl::unexpected(data.error());
     return SweptFile{chunkSize, data->chunkFile, data->needsBake, settings};
+}
+
+std::vector<MeasuredFile> measuredFilesOf(const std::vector<SweptFile>& files) {
+    std::vector<MeasuredFile> measured;
+    for (const SweptFile& file : files) measured.push_back(measuredFileOf(file.chunkFile));
+    return measured;
 }
 
 std::string messageOf(const planet::Error& error, const SweepController& controller) {
@@ -105,6 +112,7 @@ void startSweep(SweepController& controller, const OpenPlanet* open, const Sweep
     controller.suggesting = request.goal.has_value();
     if (controller.suggesting) {
         controller.suggestions.clear();
+        controller.suggestedFor = measuredFilesOf(plan->files);
     } else {
         controller.table = SweepTable{.request = request,
                                       .flight = path->name,
@@ -129,7 +137,10 @@ void advanceSweep(SweepController& controller, const Log& log) {
     takeWhatCame(controller);
     if (!result) return;
     controller.job.reset();
-    if (!controller.suggesting) controller.table->whole = result->has_value();
+    if (!controller.suggesting) {
+        controller.table->whole = result->has_value();
+        controller.measured = measuredFilesOf(controller.files);
+    }
     if (*result) {
         log->info("{}", controller.suggesting
                             ? std::string("Found a tolerance")
@@ -179,6 +190,43 @@ Result<fs::path> saveSweep(const SweepController& controller, SweepCost cost, co
     std::error_code status;
     fs::remove(*picture, status);  // otherwise an empty file would remain
     return tl::unexpected(written.error());
+}
+
+void keepResults(const SweepController& controller, KeptResults& kept) {
+    if (controller.table && !controller.table->points.empty()) {
+        KeptSweep& sweep = kept.sweep.emplace();
+        sweep.table = *controller.table;
+        // The next start may be in another folder. The text of a terrain is no path.
+        if (!planet::isTerrainText(sweep.table.source)) sweep.table.source = fs::absolute(sweep.table.source);
+        sweep.files = controller.measured;
+        for (const SweptFile& file : controller.files) sweep.chunkSizes.push_back(file.chunkSize);
+    }
+    if (!controller.suggestions.empty())
+        kept.suggestions = KeptSuggestions{controller.suggestions, controller.suggestedFor};
+}
+
+void restoreResults(SweepController& controller, const KeptResults& kept, const Log& log) {
+    const auto leaveOut = [&](const std::string& changed, const char* what) {
+        controller.problem = fmt::format("{}; the {} of the last session is not shown", changed, what);
+        log->warn("{}", controller.problem);
+    };
+    if (kept.sweep) {
+        const KeptSweep& sweep = *kept.sweep;
+        if (const std::string changed = changedSince(sweep.files); !changed.empty()) {
+            leaveOut(changed, "sweep");
+        } else {
+            controller.table = sweep.table;
+            controller.measured = sweep.files;
+            for (std::size_t i = 0; i < sweep.files.size(); ++i)
+                controller.files.push_back(
+                    {.chunkSize = sweep.chunkSizes[i], .chunkFile = sweep.files[i].file});
+        }
+    }
+    if (!kept.suggestions) return;
+    if (const std::string changed = changedSince(kept.suggestions->files); !changed.empty())
+        return leaveOut(changed, "suggested tolerance");
+    controller.suggestions = kept.suggestions->found;
+    controller.suggestedFor = kept.suggestions->files;
 }
 
 void execute(SweepController& controller, const ui::SweepCommand& command, Session& session,

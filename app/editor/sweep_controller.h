@@ -9,6 +9,7 @@
 #include "app/base/log.h"
 #include "app/editor/notices.h"
 #include "app/editor/session.h"
+#include "app/measure/kept_results.h"
 #include "app/measure/sweep_job.h"
 #include "ui/model/commands.h"
 
@@ -24,6 +25,8 @@ struct SweepController {
     std::filesystem::path bakeSource{};  // of the files; empty if unknown
     std::optional<SweepTable> table{};
     std::vector<SweepSuggestion> suggestions{};
+    std::vector<MeasuredFile> measured{};      // the files of the table, as they were when it ended
+    std::vector<MeasuredFile> suggestedFor{};  // the files of the suggestions, as they were when it began
     std::string problem{};
 };
 
@@ -48,6 +51,12 @@ void openSweptChunks(const SweepController& controller, int chunkSize, Session& 
 // plot's file. If the plot cannot be drawn, the Error says so and the tables remain.
 planet::Result<std::filesystem::path> saveSweep(const SweepController& controller, SweepCost cost,
                                                 const std::filesystem::path& folder);
+
+// Adds the results to those that the next start shows again. Call while none is being measured.
+void keepResults(const SweepController& controller, KeptResults& kept);
+// Shows the results of the last session again. What belongs to a file that has changed since is left out; the controller's
+// problem and the log say so.
+void restoreResults(SweepController& controller, const KeptResults& kept, const Log& log);
 
 void execute(SweepController& controller, const ui::SweepCommand& command, Session& session,
              const ViewSettings& settings, Notices& notices);

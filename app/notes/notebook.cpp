@@ -7,7 +7,6 @@
 #include <array>
 #include <functional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "app/base/output_file.h"
@@ -137,12 +136,6 @@ Result<std::vector<Note>> readNotes(const fs::path& file, const toml::table& doc
         }
     }
     return notes;
-}
-
-std::string quoted(const std::string& text) {
-    std::ostringstream stream;
-    stream << toml::value<std::string>(text);
-    return stream.str();
 }
 
 // Reads a file that exists.
@@ -344,7 +337,7 @@ std::string notesText(const std::vector<Note>& notes) {
         text += fmt::format("\n[[note]]\nid = {}\n", note.id);
         for (const TextField& field : textFields)
             if (const std::string& value = note.*field.text; !value.empty())
-                text += fmt::format("{} = {}\n", field.key, quoted(value));
+                text += fmt::format("{} = {}\n", field.key, tomlText(value));
         for (const NumberField& field : numberFields)
             text += fmt::format("{} = {}\n", field.key, field.of(note));
     }

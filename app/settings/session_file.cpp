@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -81,28 +80,22 @@ Result<void> readEntry(const fs::path& file, std::string_view key, const toml::n
         TRY_ASSIGN(session.compare, readComparison(file, node));
         return {};
     }
-    if (key != "file" && key != "trace") {
+    if (key != "file" && key != "bake" && key != "trace") {
         return wrong(file, node,
-                     fmt::format("{} is unknown; expected file, camera, trace, ruler or compare", key));
+                     fmt::format("{} is unknown; expected file, bake, camera, trace, ruler or compare", key));
     }
     TRY_ASSIGN(const std::string text, readText(file, key, node));
-    (key == "file" ? session.file : session.trace) = text;
+    (key == "file" ? session.file : key == "bake" ? session.bake : session.trace) = text;
     return {};
 }
 
-std::string quoted(const std::string& text) {
-    std::ostringstream stream;
-    stream << toml::value<std::string>(text);
-    return stream.str();
-}
-
 std::string line(std::string_view key, const std::string& text) {
-    return fmt::format("{} = {}\n", key, quoted(text));
+    return fmt::format("{} = {}\n", key, tomlText(text));
 }
 
 std::string line(std::string_view key, const std::vector<std::string>& texts) {
     std::string list;
-    for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
+    for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + tomlText(text);
     return fmt::format("{} = [{}]\n", key, list);
 }
 
@@ -124,6 +117,7 @@ Result<LastSession> loadLastSession(const fs::path& file) {
 std::string lastSessionText(const LastSession& session) {
     std::string text = "# What Worldy goes on with when it starts without a file.\n";
     if (!session.file.empty()) text += line("file", session.file.string());
+    if (!session.bake.empty()) text += line("bake", session.bake.string());
     if (session.camera) text += line("camera", cameraText(*session.camera));
     if (!session.trace.empty()) text += line("trace", session.trace.string());
     std::vector<std::string> ends;

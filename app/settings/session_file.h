@@ -1,6 +1,7 @@
 // The window goes on with this at its next start without a file. The layout and all settings are in the settings file.
 //
 //     file = "/terrain/alps.tif"                   # the planet that was shown
+//     bake = "/cache/alps-33.chk"                   # its chunk file, which the source's default bake need not be
 //     camera = "46.4,6.9,6000,180,-10"              # latitude, longitude, altitude in metres, heading, pitch
 //     trace = "/traces/engine.lodtrace"             # the open trace
 //     ruler = ["46.4,6.9,410", "46.5,7.1,2200"]     # the ends: latitude, longitude, altitude in metres
@@ -29,6 +30,7 @@ struct LastComparison {
 
 struct LastSession {
     std::filesystem::path file{};  // a source or a chunk file; empty: the planet that comes with Worldy
+    std::filesystem::path bake{};  // the chunk file of a source; empty: the one that the source opens
     std::optional<planet::CameraPose> camera{};
     std::filesystem::path trace{};  // empty: none
     std::vector<planet::CameraPose>

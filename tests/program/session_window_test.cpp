@@ -43,6 +43,15 @@ expect counts compared -eq 1
 )sh");
 }
 
+TEST_F(SessionWindowTest, theBakeOfTheLastSessionIsShownAgain) {
+    drive("hills.pgm", R"sh(
+tab Bake; choose "bake/Chunk size" "17 vertices"; click bake/Bake; expect counts chunk_size -eq 17; settle
+)sh");
+    drive("", R"sh(
+expect counts chunk_size -eq 17; hidden message/Text || echo "a message is shown"
+)sh");
+}
+
 // The planet that comes with Worldy is baked instead, which these steps do not wait for.
 TEST_F(SessionWindowTest, aLastSessionThatCannotBeOpenedIsReportedAndKept) {
     const std::filesystem::path file = folder.path() / "config" / "worldy" / "session.toml";

@@ -29,6 +29,7 @@ protected:
 
 TEST_F(SessionFile, isReadAsItWasWritten) {
     LastSession session{"/a \"b\"\\c/ü.tif",
+                        "/cache/ü 65.chk",
                         planet::CameraPose{46.25, -6.5, 6000.125, 180, -10.5},
                         "/t.lodtrace",
                         {{46.5, -7, 410.25}, {46.75, -7.125, -12}},
@@ -40,6 +41,7 @@ TEST_F(SessionFile, isReadAsItWasWritten) {
     const planet::Result<LastSession> read = loaded(lastSessionText(session));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->file, session.file);
+    EXPECT_EQ(read->bake, session.bake);
     EXPECT_EQ(read->trace, session.trace);
     ASSERT_TRUE(read->camera);
     EXPECT_EQ(read->camera->latitudeDeg, 46.25);
@@ -67,8 +69,9 @@ TEST_F(SessionFile, isEmptyBeforeTheFirstSession) {
 TEST_F(SessionFile, isRefusedWithItsLineIfItIsWrong) {
     EXPECT_THAT(problemOf("file = 'a.tif'\nfiles = 'b.tif'\n"),
                 AllOf(HasSubstr("session.toml: line 2"),
-                      HasSubstr("files is unknown; expected file, camera, trace, ruler or compare")));
+                      HasSubstr("files is unknown; expected file, bake, camera, trace, ruler or compare")));
     EXPECT_THAT(problemOf("\nfile = 3\n"), HasSubstr("session.toml: line 2"));
+    EXPECT_THAT(problemOf("bake = ['a']\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("bake")));
     EXPECT_THAT(problemOf("camera = '1,2'\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("camera")));
     EXPECT_THAT(problemOf("camera = '1e999,0,0'\n"), HasSubstr("session.toml: line 1"));
     EXPECT_THAT(problemOf("\nruler = '1,2'"), AllOf(HasSubstr("line 2"), HasSubstr("at most two places")));

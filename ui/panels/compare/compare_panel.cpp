@@ -329,7 +329,8 @@ void comparePanel(const EditorView& view, ComparePanelState& state, ViewSettings
             "choose a preset or file as B.",
             palette().dim);
         chooseB(view, commands);
-        if (compare.flight.running || compare.flight.last) flightSection(view, state, commands);
+        const FlightComparisonView& flight = compare.flight;
+        if (flight.running || flight.last || !flight.problem.empty()) flightSection(view, state, commands);
         return;
     }
     sides(compare, commands);
