@@ -92,7 +92,7 @@ struct CameraHandler {
         const planet::CameraPose pose = poseOf(camera.rig->camera, radiusM());
         if (succeeded(notices, addBookmark(camera.bookmarks, command.name, pose),
                       "The bookmark was not added"))
-            confirm(notices, fmt::format("Bookmark {} added", command.name));
+            confirm(notices, fmt::format("Bookmark {} saved in {}", command.name, bookmarksFile().string()));
     }
     void operator()(const ui::RemoveBookmark& command) const {
         if (succeeded(notices, removeBookmark(camera.bookmarks, command.name),
@@ -211,7 +211,7 @@ void moveCameras(CameraController& camera, Scene& scene, const Viewport& viewpor
     if (!replaying)
         moved = advanceRig(*camera.rig, around, mainView(camera, viewport, settings), viewport.main.pointer,
                            observing ? CameraMotion() : motion, seconds, settings);
-    if (!moved) notices.log->error("{}", moved.error().message);
+    succeeded(notices, moved, "The flight ended");
 
     if (!viewport.observer.shown()) return;
     camera.observer->speedFactor = camera.rig->speedFactor;

@@ -128,17 +128,18 @@ void drawB(CompareController& controller, Viewport& viewport, const ChunkFocus& 
 }
 
 // Takes the result of the flight's job.
-void advanceFlight(CompareController& controller) {
+void advanceFlight(CompareController& controller, const Log& log) {
     if (!controller.flight.job) return;
     std::optional<Result<ComparedPair>> result = controller.flight.job->takeResult();
     if (!result) return;
     controller.flight.job.reset();
-    if (*result)
+    if (*result) {
         controller.flight.last = **result;
-    else if (result->error().kind == planet::ErrorKind::Cancelled)
-        controller.flight.problem = "Cancelled.";
-    else
-        controller.flight.problem = result->error().message;
+        return;
+    }
+    controller.flight.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
+    controller.flight.problem = controller.flight.cancelled ? "Cancelled." : result->error().message;
+    if (!controller.flight.cancelled) log->error("{}", controller.flight.problem);
 }
 
 ComparedFigures figuresOf(const FrameStats& stats, const ComparedMeters& meters) {
@@ -271,7 +272,7 @@ ViewSettings swapCompared(CompareController& controller, Session& session, const
 }
 
 void stepCompared(CompareController& controller, const CompareFrame& now, const Log& log) {
-    advanceFlight(controller);
+    advanceFlight(controller, log);
     if (std::exchange(controller.ending, false)) stopCompare(controller);
     if (!controller.other) return;
     Scene& b = controller.other->planet.scene;
@@ -370,6 +371,7 @@ Result<void> compareFlight(CompareController& controller, const Session& session
     controller.flight.files = {measuredFileOf(plan.sides[0].chunkFile),
                                measuredFileOf(plan.sides[1].chunkFile)};
     controller.flight.problem.clear();
+    controller.flight.cancelled = false;
     controller.flight.last.reset();
     controller.flight.job = std::make_unique<ComparisonJob>(std::move(plan));
     return {};

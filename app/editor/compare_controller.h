@@ -59,6 +59,7 @@ struct ComparedFlight {
     std::string name{};                 // of the running job, or of the last one
     std::vector<MeasuredFile> files{};  // of A and B, as they were when it began
     std::string problem{};
+    bool cancelled = false;  // the problem is that the user cancelled
 };
 
 struct CompareController {

@@ -48,10 +48,12 @@ Editor::Editor(const Settings& settings, const Log& log)
     : notices_{log}, files_(openFileController()), layers_(openLayers()) {
     settings_.settings = settings;
     camera_.bookmarks = loadBookmarks(bookmarksFile());
-    if (!camera_.bookmarks.problem.empty()) log->warn("{}", camera_.bookmarks.problem);
+    if (!camera_.bookmarks.problem.empty())
+        tellError(notices_, {"The bookmarks cannot be read", camera_.bookmarks.problem, ""});
     readKeys(window_, notices_);
     for (const NamedLayout& layout : settings_.layouts.layouts())
-        if (!layout.workspace) log->error("{}", layout.workspace.error().message);
+        if (!layout.workspace)
+            tellError(notices_, {"A layout cannot be read", layout.workspace.error().message, ""});
     camera_.flights = availableFlights();
     recording_ = openRecordings(recordingsFolder());
 }
@@ -153,9 +155,10 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     takeUpSession(session, commands);
     advanceNotes(files_.notes, shownPlanet(session), frames_.timeS, notices_);
     advanceTrace(files_.trace, movedS, notices_.log);
-    reloadChangedShaders(session, notices_.log);
+    succeeded(notices_, reloadChangedShaders(session, notices_.log), "The shaders were not reloaded");
     advanceSources(bakes_.sources, {shownPlanet(session), settings_.settings, chunks_.focus, viewport_.main},
                    notices_.log);
+    tellProblems(session);
     FrameStats stats;
     part.emplace("planet");
     if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, movedS, commands);
@@ -326,10 +329,14 @@ void Editor::movePlanet(Scene& scene, const FrameStep& step) {
     if (step.goesOn)
         moveCameras(camera_, scene, viewport_, settings_.settings, replaying(), step.seconds, notices_);
     if (replaying()) {
-        replayFrame(recording_, scene, replayContext(), step.goesOn ? step.seconds : 0, notices_.log);
+        replayFrame(recording_, scene, replayContext(), step.goesOn ? step.seconds : 0, notices_);
     } else if (step.goesOn) {
         chooseChunks(scene, step);
-        if (recordFrame(recording_, *scene.planet, notices_.log)) camera_.flights = availableFlights();
+        if (recordFrame(recording_, *scene.planet, notices_.log)) {
+            camera_.flights = availableFlights();
+            show(notices_,
+                 "The recording is full. It was stopped and saved: " + recording_.savedFile.string());
+        }
     }
 }
 
@@ -420,6 +427,24 @@ ui::EditorView Editor::view(Session& session) {
             .sources = sourcesViewOf(bakes_.sources, session),
             .trace = traceViewOf(files_.trace),
             .notes = notesViewOf(files_.notes)};
+}
+
+// Brings the problems of work in the background in front of the user, who may have closed the panel that tells them.
+void Editor::tellProblems(const Session& session) {
+    const auto tell = [&](PanelId panel, const char* title, const std::string& problem) {
+        tellOnce(notices_, settings_.settings.workspace, panel, title, problem);
+    };
+    const std::optional<planet::Error>& bake = session.bakeProblem;
+    // Without a planet, the viewport tells it.
+    const bool isFailure = bake && session.open && bake->kind != planet::ErrorKind::Cancelled;
+    tell(PanelId::Bake, "The bake failed", isFailure ? bake->message : "");
+    tell(PanelId::Sweep, "The sweep has no result", sweep_.cancelled ? "" : sweep_.problem);
+    tell(PanelId::Compare, "There is no comparison", compare_.problem);
+    tell(PanelId::Compare, "The flight was not compared",
+         compare_.flight.cancelled ? "" : compare_.flight.problem);
+    tell(PanelId::Flight, "The recording was not saved", recording_.saveProblem);
+    tell(PanelId::Sources, "The source cannot be read", bakes_.sources.reader.problem);
+    tell(PanelId::Trace, "The trace has a fault", files_.trace.reported);
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {

@@ -51,6 +51,7 @@ public:
     void endFlights(Session& session);
 
 private:
+    void tellProblems(const Session& session);
     bool replaying() const { return recording_.replay.has_value(); }
     CameraContext cameraContext(const Scene* scene);
     ReplayContext replayContext();

@@ -27,8 +27,7 @@ void openPreset(const std::filesystem::path& file, const FileContext& context, N
     Result<ViewSettings> loaded = loadViewSettings(file, context.settings.settings.view);
     if (!loaded) return tellCannotOpen(notices, file, loaded.error());
     replaceView(context.settings, std::move(*loaded), undoNameOf(file));
-    confirm(notices, fmt::format("Settings of {} loaded", file.filename().string()),
-            fmt::format("Settings of {} loaded", file.string()));
+    confirm(notices, fmt::format("Settings of {} loaded", file.string()));
 }
 
 // Returns false if the picture contains no settings and so is no screenshot.
@@ -46,15 +45,14 @@ bool openScreenshot(const std::filesystem::path& file, const FileContext& contex
     if (const Scene* scene = shownScene(std::as_const(context.session)))
         moveCamera(context.camera, cameraFromPose(note->camera, scene->planet->tree().shape.radiusM),
                    settings.view.camera);
-    confirm(notices, fmt::format("Camera and settings of {} loaded", file.filename().string()),
-            fmt::format("Camera and settings of {} loaded", file.string()));
+    confirm(notices, fmt::format("Camera and settings of {} loaded", file.string()));
     return true;
 }
 
 void keepRecent(FileController& files, Notices& notices) {
     files.recentShown = shownRecentFiles(files.recent);
-    if (const auto saved = saveRecentFiles(files.recent, recentFilesFile()); !saved)
-        notices.log->error("{}", saved.error().message);
+    succeeded(notices, saveRecentFiles(files.recent, recentFilesFile()),
+              "The list of recent files was not saved");
 }
 
 void open(FileController& files, const std::filesystem::path& file, const FileContext& context,
@@ -71,7 +69,7 @@ void open(FileController& files, const std::filesystem::path& file, const FileCo
         if (file.extension() == ".png" && openScreenshot(file, context, notices)) return;
     }
     if (!openFile(context.session, file, context.settings.settings.view, notices.log)) {
-        notices.message = openingFailed(file, *context.session.problem);  // already logged
+        showError(notices, openingFailed(file, *context.session.problem));  // already logged
         return;
     }
     files.opening = file;  // its bake may still fail
@@ -110,9 +108,9 @@ bool followOpening(FileController& files, const Session& session, Notices& notic
         return true;
     }
     if (session.open && session.problem->kind != planet::ErrorKind::Cancelled)
-        notices.message = {fmt::format("{} cannot be baked", file.filename().string()),
-                           session.problem->message,
-                           "The open planet is kept. Fix the file or open another one.", true};
+        showError(notices,
+                  {fmt::format("{} cannot be baked", file.filename().string()), session.problem->message,
+                   "The open planet is kept. Fix the file or open another one.", true});
     return false;
 }
 

@@ -130,7 +130,7 @@ void execute(LayerController& controller, const ui::LayerCommand& command, Setti
                 if (!maySet() || !succeeded(notices, saveAs(controller, save.name, view.surface.layers),
                                             "The layer set was not saved"))
                     return;
-                confirm(notices, fmt::format("Layer set {} saved", save.name));
+                confirm(notices, fmt::format("Layer set saved: {}", view.surface.layers.file));
                 replaceView(settings, std::move(view), "layer set saved");
             },
             [&](const ui::ReloadLayerTextures&) {

@@ -42,7 +42,7 @@ void openNotes(NotesController& notes, const std::filesystem::path& file, Notice
                                     whereKept(notes))});
 }
 
-// Returns what is done, for the log: where the note was saved.
+// Returns what is done and where the note was saved.
 struct Executor {
     NotesController& notes;
 
@@ -102,7 +102,7 @@ void execute(NotesController& notes, const ui::NoteCommand& command, Workspace& 
     const Result<std::string> done = std::visit(Executor{notes}, command);
     if (!done) return tellError(notices, {"The note was not saved", done.error().message, ""});
     if (std::holds_alternative<ui::OpenNote>(command)) return ui::showPanel(PanelId::Notes, workspace);
-    confirm(notices, "Notes saved: " + notes.book.writesTo.filename().string(), *done);
+    confirm(notices, *done);
 }
 
 ui::NotesView notesViewOf(const NotesController& notes) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/flight/flight_record.h"
+#include "ui/model/docking.h"
 
 namespace worldy {
 
@@ -18,17 +19,33 @@ void showBriefly(Notices& notices, const std::string& text) {
 }
 
 void confirm(Notices& notices, const std::string& text) {
-    confirm(notices, text, text);
+    notices.log->info("{}", text);
+    show(notices, text);
 }
 
-void confirm(Notices& notices, const std::string& text, const std::string& logged) {
-    notices.log->info("{}", logged);
-    show(notices, text);
+void showError(Notices& notices, ui::Message message) {
+    constexpr std::size_t longestText = 2000;  // bytes; the log has the rest
+    ui::Message& open = notices.message;
+    if (open.title.empty()) {
+        open = std::move(message);
+        return;
+    }
+    if (open.text.find(message.text) != std::string::npos || open.text.size() > longestText) return;
+    open.text += fmt::format("\n\n{}: {}", message.title, message.text);
+    open.offersOpen = open.offersOpen || message.offersOpen;
 }
 
 void tellError(Notices& notices, ui::Message message) {
     notices.log->error("{}", message.text);
-    notices.message = std::move(message);
+    showError(notices, std::move(message));
+}
+
+void tellOnce(Notices& notices, const Workspace& workspace, PanelId panel, const std::string& title,
+              const std::string& problem) {
+    std::string& told = notices.told[title];
+    if (told == problem) return;
+    told = problem;
+    if (!problem.empty() && !ui::isVisible(panel, workspace)) showError(notices, {title, problem, ""});
 }
 
 bool succeeded(Notices& notices, const planet::Result<void>& result, const std::string& failed) {

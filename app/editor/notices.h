@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "app/base/log.h"
+#include "app/settings/workspace.h"
 #include "planet/base/result.h"
 #include "ui/shell/message_box.h"
 
@@ -15,7 +17,8 @@ struct Notices {
     const Log& log;
     ui::Message message{};
     ui::Confirmation confirmation{};
-    double timeS = 0;  // time of this frame since the window opened
+    double timeS = 0;                           // time of this frame since the window opened
+    std::map<std::string, std::string> told{};  // the problem that tellOnce() was last called with, by title
 };
 
 inline constexpr double confirmationS = 5;  // how long a confirmation is shown
@@ -24,12 +27,16 @@ inline constexpr double confirmationS = 5;  // how long a confirmation is shown
 void showBriefly(Notices& notices, const std::string& text);
 // Shows in the viewport for confirmationS that a request is done.
 void show(Notices& notices, const std::string& text);
-// Does the same and writes it to the log.
+// Does the same and writes it to the log. What was saved is told with its whole path.
 void confirm(Notices& notices, const std::string& text);
-// Does the same with another text for the log, because whole paths are too long for the viewport.
-void confirm(Notices& notices, const std::string& text, const std::string& logged);
+// Shows a message box about an error that is in the log already. If one is open, the text is added to it, once.
+void showError(Notices& notices, ui::Message message);
 // Reports in the log and in a message box why a request failed and what to do about it.
 void tellError(Notices& notices, ui::Message message);
+// Shows once in a message box a problem that a panel tells as long as it lasts, unless the panel is in sight. problem: empty
+// if there is none. It is in the log already.
+void tellOnce(Notices& notices, const Workspace& workspace, PanelId panel, const std::string& title,
+              const std::string& problem);
 // Reports an Error with failed as the title. Returns true if the result is not an Error.
 bool succeeded(Notices& notices, const planet::Result<void>& result, const std::string& failed);
 

@@ -158,6 +158,7 @@ void stopRecording(RecordingController& controller, planet::Planet* planet, cons
     const FlightEncoder& encoded = recorder.encoded();
     const Result<fs::path> file = writeUnderFreeName(controller.folder, recorder);
     controller.saved = file ? recorder.name() : "";
+    controller.savedFile = file ? *file : fs::path();
     controller.saveProblem = file ? "" : file.error().message;
     if (file && recorder.name() != name)
         log->warn("A recorded flight \"{}\" now exists; this one is saved as \"{}\"", name, recorder.name());
@@ -323,11 +324,11 @@ void forgetChanges(const ReplayContext& context) {
 // Reports the outcome of the recording that was just stopped; the log already has it.
 void tellSaved(const RecordingController& controller, Notices& notices) {
     if (!controller.saveProblem.empty())
-        notices.message = {
-            "The recording was not saved", controller.saveProblem,
-            controller.unwritten ? "The recording is kept: free disk space and stop it again." : ""};
+        showError(notices,
+                  {"The recording was not saved", controller.saveProblem,
+                   controller.unwritten ? "The recording is kept: free disk space and stop it again." : ""});
     else if (!controller.saved.empty())
-        show(notices, fmt::format("Recording {} saved", controller.saved));
+        show(notices, fmt::format("Recording saved: {}", controller.savedFile.string()));
 }
 
 struct RecordingHandler {
@@ -420,7 +421,7 @@ void endReplay(RecordingController& controller, Scene* scene, const ReplayContex
 }
 
 void replayFrame(RecordingController& controller, Scene& scene, const ReplayContext& context, double seconds,
-                 const Log& log) {
+                 Notices& notices) {
     const FlightReplay& replayed = controller.replay->replay;
     const std::size_t frameBefore = replayed.next();
     CameraController& camera = context.camera;
@@ -446,7 +447,7 @@ void replayFrame(RecordingController& controller, Scene& scene, const ReplayCont
             context.paging.paused = pagingPaused;
         }};
     if (const auto done = advanceReplay(*controller.replay, scene, seconds, watcher); !done) {
-        log->error("{}", done.error().message);
+        tellError(notices, {"The replay ended", done.error().message, ""});
         return endReplay(controller, &scene, context);
     }
     if (replayed.next() > 0) holdRecordedSettings(replayed.settings(), settings);

@@ -53,6 +53,7 @@ struct RecordingController {
     std::optional<Recorder> unwritten;  // ended, but its file could not be written yet
     std::string saveProblem;            // why the last recording could not be saved
     std::string saved;                  // name of the last saved recording; empty once it is deleted
+    std::filesystem::path savedFile;    // its file
     std::optional<RunningReplay> replay;
 };
 
@@ -111,7 +112,7 @@ void execute(RecordingController& controller, const ui::RecordingCommand& comman
 void endReplay(RecordingController& controller, Scene* scene, const ReplayContext& context);
 // Runs a frame of the replay, instead of moving the camera, applying the settings, and selecting.
 void replayFrame(RecordingController& controller, Scene& scene, const ReplayContext& context, double seconds,
-                 const Log& log);
+                 Notices& notices);
 
 // Applies the settings to the planet, and records them.
 void giveSettings(RecordingController& controller, Scene& scene, const ViewSettings& settings,

@@ -360,6 +360,7 @@ void openBake(Session& session, const BakeRequest& request, const fs::path& chun
     if (!open && planet::heightSourceExists(request.source)) return startBake(session, request, log);
     if (!open) {
         log->error("{}", open.error().message);
+        session.bakeProblem = open.error();
         return;
     }
     if (!request.source.empty()) {
@@ -505,14 +506,12 @@ bool shadersHaveChanged(const Session& session) {
            newestIn(session.shaders.folder) != session.shaders.changed;
 }
 
-void reloadChangedShaders(Session& session, const Log& log) {
-    if (!shadersHaveChanged(session)) return;
+Result<void> reloadChangedShaders(Session& session, const Log& log) {
+    if (!shadersHaveChanged(session)) return {};
     session.shaders.changed = newestIn(session.shaders.folder);
-    const Result<void> reloaded = session.open->scene.renderer.chunks().reloadShaders();
-    if (reloaded)
-        log->info("Shaders of {} reloaded", session.shaders.folder.string());
-    else
-        log->error("{}", reloaded.error().message);
+    Result<void> reloaded = session.open->scene.renderer.chunks().reloadShaders();
+    if (reloaded) log->info("Shaders of {} reloaded", session.shaders.folder.string());
+    return reloaded;
 }
 
 }  // namespace worldy

@@ -120,7 +120,8 @@ ui::DataView dataViewOf(const Session& session, std::span<const std::filesystem:
 
 // Returns whether a file in the folder of the shaders is newer than when they were compiled.
 bool shadersHaveChanged(const Session& session);
-// Recompiles the shaders of the folder if one has changed, for all planets of the session.
-void reloadChangedShaders(Session& session, const Log& log);
+// Recompiles the shaders of the folder if one has changed, for all planets of the session. On an Error those that were
+// compiled last go on.
+planet::Result<void> reloadChangedShaders(Session& session, const Log& log);
 
 }  // namespace worldy

@@ -13,6 +13,19 @@ namespace worldy {
 
 namespace {
 
+// Return the path of the file that was saved under a name.
+std::string fileOf(std::span<const ui::PresetView> presets, const std::string& name) {
+    const auto preset = std::ranges::find_if(
+        presets, [&](const ui::PresetView& one) { return one.name == name && !one.shipped; });
+    return preset == presets.end() ? name : preset->file.string();
+}
+std::string fileOf(const LayoutLibrary& library, const std::string& name) {
+    const auto layouts = library.layouts();
+    const auto layout = std::ranges::find_if(
+        layouts, [&](const NamedLayout& one) { return one.named.name == name && !one.named.shipped; });
+    return layout == layouts.end() ? name : layout->named.file.string();
+}
+
 void loadPreset(SettingsController& controller, const std::string& name, Notices& notices) {
     planet::Result<ViewSettings> loaded = controller.presets.load(name, controller.settings.view);
     if (!loaded) return tellError(notices, {"The preset cannot be loaded", loaded.error().message, ""});
@@ -90,7 +103,8 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
             [&](const ui::SavePreset& preset) {
                 if (succeeded(notices, controller.presets.save(preset.name, view),
                               "The preset was not saved"))
-                    confirm(notices, fmt::format("Preset {} saved", preset.name));
+                    confirm(notices, fmt::format("Preset saved: {}",
+                                                 fileOf(controller.presets.views(view), preset.name)));
             },
             [&](const ui::LoadPreset& preset) {
                 if (maySet()) loadPreset(controller, preset.name, notices);
@@ -100,7 +114,8 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
                         notices,
                         controller.layouts.save(layout.name, controller.settings.workspace, layout.replaces),
                         "The layout was not saved"))
-                    confirm(notices, fmt::format("Layout {} saved", layout.name));
+                    confirm(notices,
+                            fmt::format("Layout saved: {}", fileOf(controller.layouts, layout.name)));
             },
             [&](const ui::LoadLayout& layout) { loadLayout(controller, layout.name, notices); },
             [&](const ui::DeleteLayout& layout) {

@@ -213,8 +213,7 @@ void saveEdited(LayerEditing& editing, const ui::SaveLayers& save, Notices& noti
         return;
     editing.file = editing.edit;
     editing.changed = false;
-    confirm(notices, fmt::format("World file {} saved", file.filename().string()),
-            fmt::format("World file {} saved", file.string()));
+    confirm(notices, fmt::format("World file {} saved", std::filesystem::absolute(file, status).string()));
 }
 
 // Returns the source that names all files: one, or a list.

@@ -100,6 +100,7 @@ void startSweep(SweepController& controller, const OpenPlanet* open, const Sweep
                 const ViewSettings& settings, const Log& log) {
     if (!open || controller.job) return;
     controller.problem.clear();
+    controller.cancelled = false;
     // The flight is checked before anything is baked for it.
     const Result<FlightPath> path = loadFlightPath(request.flight);
     Result<SweepPlan> plan =
@@ -148,8 +149,8 @@ void advanceSweep(SweepController& controller, const Log& log) {
         return;
     }
     controller.problem = messageOf(result->error(), controller);
-    const bool cancelled = result->error().kind == planet::ErrorKind::Cancelled;
-    log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
+    controller.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
+    log->log(controller.cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
 }
 
 void openSweptChunks(const SweepController& controller, int chunkSize, Session& session,
@@ -240,9 +241,8 @@ void execute(SweepController& controller, const ui::SweepCommand& command, Sessi
                        const Result<fs::path> plot = saveSweep(controller, save.cost, picturesFolder());
                        if (!plot)
                            return tellError(notices, {"The sweep was not saved", plot.error().message, ""});
-                       confirm(
-                           notices, fmt::format("Sweep saved: {} (.png, .csv, .json)", plot->stem().string()),
-                           fmt::format("Sweep saved: {}, with its table as .csv and .json", plot->string()));
+                       confirm(notices, fmt::format("Sweep saved: {}, with its table as .csv and .json",
+                                                    plot->string()));
                    },
                    [&](const ui::OpenSweptChunks& open) {
                        openSweptChunks(controller, open.chunkSize, session, settings, notices.log);

@@ -28,6 +28,7 @@ struct SweepController {
     std::vector<MeasuredFile> measured{};      // the files of the table, as they were when it ended
     std::vector<MeasuredFile> suggestedFor{};  // the files of the suggestions, as they were when it began
     std::string problem{};
+    bool cancelled = false;  // the problem is that the user cancelled
 };
 
 // Returns the plan of a sweep over the shown planet, with the current settings except overlays, fault

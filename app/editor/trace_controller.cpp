@@ -200,8 +200,7 @@ void execute(TraceController& controller, const ui::TraceCommand& command, Works
                 if (const Result<void> opened = openTrace(controller, open.file); !opened)
                     return tellCannotOpen(notices, open.file, opened.error());
                 showPanels(workspace);
-                confirm(notices, fmt::format("Trace {} opened", open.file.filename().string()),
-                        fmt::format("Trace {} opened", open.file.string()));
+                confirm(notices, fmt::format("Trace {} opened", open.file.string()));
             },
             [&](const ui::AttachTrace& attach) {
                 if (succeeded(notices, attachTrace(controller, attach.port), "Attaching is impossible"))

@@ -81,10 +81,7 @@ std::string problemText(const std::vector<std::string>& problems) {
 // Says where a file was saved, or why it was not.
 void tellSaved(const Result<std::filesystem::path>& file, Notices& notices) {
     if (!file) return tellError(notices, {"The file was not saved", file.error().message, ""});
-    confirm(
-        notices,
-        fmt::format("Saved: {} in {}", file->filename().string(), file->parent_path().filename().string()),
-        fmt::format("Saved: {}", file->string()));
+    confirm(notices, fmt::format("Saved: {}", file->string()));
 }
 
 void saveExport(const ui::SaveExport& save, Notices& notices) {
@@ -220,8 +217,7 @@ void keepReport(WindowController& controller, const Window& window, const Window
     const Result<std::filesystem::path> folder = writeSessionReport(
         picturesFolder(), sessionReport(view, content.settings, facts), planet, window.readPicture());
     if (!folder) return tellError(notices, {"The report was not saved", folder.error().message, ""});
-    confirm(notices, fmt::format("Report saved: {}", folder->filename().string()),
-            fmt::format("Report saved: {}", (*folder / "report.md").string()));
+    confirm(notices, fmt::format("Report saved: {}", (*folder / "report.md").string()));
 }
 
 void keepScreenshot(WindowController& controller, const Window& window, const WindowContent& content,
@@ -236,8 +232,7 @@ void keepScreenshot(WindowController& controller, const Window& window, const Wi
         withPanels ? window.readPicture() : Picture{target->widthPx(), target->heightPx(), target->readRgb()};
     const Result<std::filesystem::path> file = writeNewScreenshot(picture, noteOf(content));
     if (file)
-        confirm(notices, fmt::format("Screenshot: {}", file->filename().string()),
-                fmt::format("Screenshot: {}", file->string()));
+        confirm(notices, fmt::format("Screenshot: {}", file->string()));
     else
         tellError(notices, {"The screenshot was not saved", file.error().message, ""});
 }

@@ -181,6 +181,7 @@ TEST_F(DocksWindowTest, aBrokenLayoutIsGreyAndSaysWhy) {
     std::filesystem::create_directories(layouts);
     std::ofstream(layouts / "broken.toml") << "[panels]\nlod = \"top\"\n";
     drive(R"sh(
+expect shown message/Text; key Return; expect hidden message/Text
 says 'broken.toml: line 2: panels.lod is' || echo "the log does not name the broken layout"
 expect shown status/error
 click menu/View && click menu/Layout && point layout/broken; shot broken.png; xdotool click 1; frames

@@ -253,7 +253,7 @@ enter log/Filter planet.chk; expect shown "log/line 1"
 TEST_F(PanelsWindowTest, APresetBringsSettingsBack) {
     drive(R"sh(
 slide "lod/Tolerance τ" 0; expect counts triangles -gt 20000; settle; fine=$(counter triangles)
-key ctrl+p; enter presets/Name "My own"; expect shown "presets/My own"; expect says 'Preset My own saved'
+key ctrl+p; enter presets/Name "My own"; expect shown "presets/My own"; expect says 'Preset saved: /.*/My own.toml'
 tab LOD; slide "lod/Tolerance τ" 1; expect counts triangles -lt 5000
 tab Presets; click "presets/My own"; click presets/Load; expect counts triangles -eq $fine
 key ctrl+z; expect counts triangles -lt 5000

@@ -136,6 +136,7 @@ TEST_F(WindowTest, ABrokenShaderLeavesTheLastGoodOneAndAMendedOneIsTaken) {
     const Ran ran = runInWindow(folder, "planet.chk --shaders glsl", R"sh(
 plain=$(viewport)
 echo 'this is no GLSL' >> glsl/chunk.frag; expect says 'error: .*chunk.frag'
+expect shown message/Text; key Return; expect hidden message/Text
 frames; same "$plain" || echo "the picture is another one"
 sed -i '$d' glsl/chunk.frag; expect says 'Shaders of glsl reloaded'
 )sh");

@@ -352,7 +352,7 @@ void saveButton(const SweepTable& table, const SweepPanelState& state, Commands&
     sameLineIfRoom(ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x);
     beginGrey(!table.whole, "Only a completed sweep can be saved.");
     if (button(label, table.whole ? "Saves the table as .csv and .json and the plot as .png, beside the "
-                                    "screenshots. The log shows the paths."
+                                    "screenshots."
                                   : "Only a completed sweep can be saved."))
         commands.push_back(SaveSweep{state.cost});
     endGrey();

@@ -1,0 +1,127 @@
+#include "app/editor/notices.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "app/editor/compare_controller.h"
+#include "app/editor/sweep_controller.h"
+#include "tests/support/temporary_folder.h"
+
+namespace worldy {
+namespace {
+
+using testing::HasSubstr;
+
+class NoticesTest : public testing::Test {
+protected:
+    std::size_t logged(const std::string& text) {
+        log_.moveNewLines(lines_);
+        std::size_t count = 0;
+        for (const LogLine& line : lines_) count += line.text.find(text) != std::string::npos;
+        return count;
+    }
+
+    Log log_;
+    std::deque<LogLine> lines_;
+    Notices notices_{log_};
+    Workspace workspace_;
+};
+
+TEST_F(NoticesTest, aSecondErrorIsAddedToAnOpenMessage) {
+    tellError(notices_, {"The first failed", "no disk", ""});
+    tellError(notices_, {"The second failed", "no memory", ""});
+    EXPECT_EQ(notices_.message.title, "The first failed");
+    EXPECT_EQ(notices_.message.text, "no disk\n\nThe second failed: no memory");
+    tellError(notices_, {"The second failed", "no memory", ""});
+    EXPECT_EQ(notices_.message.text, "no disk\n\nThe second failed: no memory") << "it is told twice";
+}
+
+TEST_F(NoticesTest, manyErrorsDoNotFillTheScreen) {
+    for (int i = 0; i < 1000; ++i)
+        tellError(notices_, {"Failed", std::string(50, 'a') + std::to_string(i), ""});
+    EXPECT_LT(notices_.message.text.size(), 2200u);
+    EXPECT_EQ(logged("a999"), 1u);
+}
+
+TEST_F(NoticesTest, theProblemOfAHiddenPanelIsShownOnce) {
+    const auto tell = [&](const std::string& problem) {
+        tellOnce(notices_, workspace_, PanelId::Sweep, "The sweep has no result", problem);
+    };
+    workspace_.panels[static_cast<std::size_t>(PanelId::Sweep)].shown = false;
+    tell("");
+    EXPECT_EQ(notices_.message.title, "");
+    tell("no disk");
+    EXPECT_EQ(notices_.message.text, "no disk");
+    notices_.message = {};
+    tell("no disk");
+    EXPECT_EQ(notices_.message.title, "") << "it is told twice";
+    tell("");
+    tell("no disk");
+    EXPECT_EQ(notices_.message.text, "no disk") << "it has failed again";
+}
+
+TEST_F(NoticesTest, aPanelInSightTellsItsProblemItself) {
+    workspace_.panels[static_cast<std::size_t>(PanelId::Sweep)].shown = true;
+    workspace_
+        .inFront[static_cast<std::size_t>(workspace_.panels[static_cast<std::size_t>(PanelId::Sweep)].dock)] =
+        PanelId::Sweep;
+    tellOnce(notices_, workspace_, PanelId::Sweep, "The sweep has no result", "no disk");
+    EXPECT_EQ(notices_.message.title, "");
+}
+
+class RestoredResults : public NoticesTest {
+protected:
+    KeptResults resultsOf(const std::filesystem::path& chunks) const {
+        const MeasuredFile file = measuredFileOf(chunks);
+        KeptResults kept;
+        SweepTable table;
+        table.flight = "andes";
+        table.points.resize(2);
+        kept.sweep = KeptSweep{table, {65}, {file}};
+        kept.suggestions = KeptSuggestions{std::vector<SweepSuggestion>(1), {file}};
+        kept.flight = KeptFlight{"andes, 12 sample frames.", {}, {file, file}};
+        return kept;
+    }
+
+    tests::TemporaryFolder folder_;
+    const std::filesystem::path chunks_ = folder_ / "a.chk";
+    SweepController sweep_;
+    ComparedFlight flight_;
+};
+
+TEST_F(RestoredResults, areShownAndKeptAgain) {
+    std::ofstream(chunks_) << "chunks";
+    const KeptResults kept = resultsOf(chunks_);
+    restoreResults(sweep_, kept, log_);
+    restoreResults(flight_, kept, log_);
+    ASSERT_TRUE(sweep_.table && flight_.last);
+    EXPECT_EQ(sweep_.table->points.size(), 2u);
+    EXPECT_EQ(sweep_.files.at(0).chunkSize, 65);
+    EXPECT_EQ(sweep_.suggestions.size(), 1u);
+    EXPECT_EQ(flight_.name, "andes, 12 sample frames.");
+    EXPECT_EQ(sweep_.problem + flight_.problem, "");
+    KeptResults again;
+    keepResults(sweep_, again);
+    keepResults(flight_, again);
+    EXPECT_EQ(again.sweep->files, kept.sweep->files);
+    EXPECT_EQ(again.sweep->chunkSizes, kept.sweep->chunkSizes);
+    EXPECT_TRUE(again.suggestions && again.flight);
+}
+
+TEST_F(RestoredResults, ofAFileThatHasChangedAreLeftOutAndSaySo) {
+    std::ofstream(chunks_) << "chunks";
+    const KeptResults kept = resultsOf(chunks_);
+    std::ofstream(chunks_) << "other chunks";
+    restoreResults(sweep_, kept, log_);
+    restoreResults(flight_, kept, log_);
+    EXPECT_FALSE(sweep_.table || flight_.last);
+    EXPECT_TRUE(sweep_.suggestions.empty());
+    EXPECT_THAT(sweep_.problem, HasSubstr("a.chk has changed"));
+    EXPECT_THAT(flight_.problem, HasSubstr("a.chk has changed; the comparison over a flight"));
+    EXPECT_EQ(logged("a.chk has changed; the sweep of the last session is not shown"), 1u);
+}
+
+}  // namespace
+}  // namespace worldy
