@@ -29,7 +29,8 @@ KeptResults someResults() {
     SweepPoint point{.chunkSize = 65, .metric = planet::ErrorMetric::Tight, .tauPx = 1.0 / 3};
     point.figures = {12, 1.5, 2.5, 4, 5.25, 6, 7, 8, 9, 10, 11, 0.1, 13, 14, 15};
     sweep.table.points = {point, {.chunkSize = 17, .tauPx = 4}};
-    SweepSuggestion suggestion{.chunkSize = 33, .metric = planet::ErrorMetric::Tight};
+    SweepSuggestion suggestion;
+    suggestion.metric = planet::ErrorMetric::Tight;
     suggestion.goal = {false, SweepCost::MemoryMiB, 64.5};
     suggestion.found = {1.75, 63.25, true, 7};
     results.suggestions = {{suggestion}, {{"/c/a.chk", 1000, 7}}};
@@ -116,13 +117,13 @@ TEST_F(KeptResultsFile, readsNoCutFileButIsNeverHarmed) {
     const std::string text = keptResultsText(someResults());
     for (std::size_t bytes = 0; bytes < text.size(); bytes += 7) {
         const planet::Result<KeptResults> cut = loaded(text.substr(0, bytes));
-        if (!cut) EXPECT_THAT(cut.error().message, HasSubstr("results.toml")) << bytes;
+        EXPECT_TRUE(cut || cut.error().message.find("results.toml") != std::string::npos) << bytes;
     }
     for (std::size_t at = 0; at < text.size(); at += 5) {
         std::string changed = text;
         changed[at] = static_cast<char>(changed[at] ^ 0x15);
         const planet::Result<KeptResults> read = loaded(changed);
-        if (!read) EXPECT_THAT(read.error().message, HasSubstr("results.toml")) << at;
+        EXPECT_TRUE(read || read.error().message.find("results.toml") != std::string::npos) << at;
     }
 }
 
