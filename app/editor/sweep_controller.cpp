@@ -198,7 +198,9 @@ void keepResults(const SweepController& controller, KeptResults& kept) {
         KeptSweep& sweep = kept.sweep.emplace();
         sweep.table = *controller.table;
         // The next start may be in another folder. The text of a terrain is no path.
-        if (!planet::isTerrainText(sweep.table.source)) sweep.table.source = fs::absolute(sweep.table.source);
+        std::error_code status;
+        if (!planet::isTerrainText(sweep.table.source))
+            sweep.table.source = fs::absolute(sweep.table.source, status);
         sweep.files = controller.measured;
         for (const SweptFile& file : controller.files) sweep.chunkSizes.push_back(file.chunkSize);
     }
