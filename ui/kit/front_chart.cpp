@@ -9,6 +9,7 @@
 #include "app/base/plot_scale.h"
 #include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
@@ -156,7 +157,7 @@ ExportTable samplesOf(const FrontChart& chart) {
 }
 
 std::optional<std::size_t> nearestToPointer(const ChartScale& scale, std::span<const FrontPoint> points) {
-    if (!ImGui::IsItemHovered()) return std::nullopt;
+    if (!plotIsHovered()) return std::nullopt;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const float reach = ImGui::GetFontSize();
     float best = reach * reach;
@@ -209,7 +210,7 @@ std::optional<std::size_t> frontChart(const FrontChart& chart, std::optional<std
     const ImVec2 size{std::max(room.x, ImGui::GetFontSize()),
                       std::max(room.y, leastChartLines * ImGui::GetTextLineHeightWithSpacing())};
     const ImVec2 start = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton("chart", size);
+    plotItem("chart", size);
     noteItem("chart");
     const ImVec2 end{start.x + size.x, start.y + size.y};
     const ChartScale scale = scaleOver(chart.points, start, end);
@@ -228,12 +229,18 @@ std::optional<std::size_t> frontChart(const FrontChart& chart, std::optional<std
         noteRect(fmt::format("Point {}", i), {at.x - 2, at.y - 2, 4, 4});
     }
     exportPlot("chart", samplesOf(chart));
-    const std::optional<std::size_t> nearest = nearestToPointer(scale, chart.points);
-    if (nearest) {
-        ImGui::BeginTooltip();
-        chart.tell(*nearest);
+    const PlotCursor cursor = plotCursor(chart.points.size());
+    const std::optional<std::size_t> told = cursor.at ? cursor.at : nearestToPointer(scale, chart.points);
+    if (told) {
+        const ImVec2 at = scale.at(chart.points[*told]);
+        if (cursor.at)
+            ImGui::GetWindowDrawList()->AddCircle(at, ImGui::GetFontSize() * 0.6f, packed(palette().text), 0,
+                                                  2);
+        beginSampleTooltip(cursor, at.x);
+        chart.tell(*told);
         ImGui::EndTooltip();
-        return ImGui::IsMouseClicked(ImGuiMouseButton_Left) ? nearest : std::nullopt;
+        const bool isClicked = !cursor.at && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+        return cursor.acts || isClicked ? told : std::nullopt;
     }
     tooltip(chart.explanation);
     return std::nullopt;

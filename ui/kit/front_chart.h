@@ -38,7 +38,8 @@ struct FrontChart {
     std::function<void(std::size_t)> tell{};  // draws the content of a point's tooltip
 };
 
-// Draws the plot in the remaining room, with a minimum height. Returns the point that is clicked.
+// Draws the plot in the remaining room, with a minimum height. Returns the point that is clicked, or chosen by
+// the keyboard.
 std::optional<std::size_t> frontChart(const FrontChart& chart, std::optional<std::size_t> selected);
 
 // Draws the names of series in their colours, in as many lines as they need, starting beside the last item.

@@ -9,6 +9,7 @@
 
 #include "app/base/plot_scale.h"
 #include "ui/kit/exports.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/theme.h"
 
 namespace worldy::ui {
@@ -43,7 +44,7 @@ Area beginArea(const char* id, float lines) {
     const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize());
     const ImVec2 start = ImGui::GetCursorScreenPos();
     const ImVec2 size(width, std::round(lines * ImGui::GetTextLineHeightWithSpacing()));
-    ImGui::InvisibleButton(id, size);
+    plotItem(id, size);
     const Area area{start, {start.x + size.x, start.y + size.y}};
     ImGui::GetWindowDrawList()->AddRectFilled(area.start, area.end, ImGui::GetColorU32(ImGuiCol_FrameBg),
                                               ImGui::GetStyle().FrameRounding);
@@ -186,7 +187,7 @@ void drawMark(const Scale& scale, double mark, const char* unit) {
 
 // Returns the sample nearest to the pointer, if the plot is hovered.
 std::optional<std::size_t> sampleUnderPointer(const Scale& scale, std::span<const float> timesS) {
-    if (!ImGui::IsItemHovered() || timesS.empty()) return std::nullopt;
+    if (!plotIsHovered() || timesS.empty()) return std::nullopt;
     const float share = (ImGui::GetIO().MousePos.x - scale.area.start.x) / std::max(scale.area.width(), 1.0f);
     const float timeS = scale.firstS + share * scale.spanS;
     if (timeS < timesS.front()) return std::nullopt;
@@ -196,12 +197,13 @@ std::optional<std::size_t> sampleUnderPointer(const Scale& scale, std::span<cons
 
 void pointerValues(const Scale& scale, std::span<const float> timesS, std::span<const Series> series,
                    const char* unit, bool stacked) {
-    const std::optional<std::size_t> at = sampleUnderPointer(scale, timesS);
+    const PlotCursor cursor = plotCursor(timesS.size());
+    const std::optional<std::size_t> at = cursor.at ? cursor.at : sampleUnderPointer(scale, timesS);
     if (!at) return;
     const float x = scale.x(timesS[*at]);
     ImGui::GetWindowDrawList()->AddLine({x, scale.area.start.y}, {x, scale.area.end.y},
                                         faded(palette().text, 0.5f));
-    ImGui::BeginTooltip();
+    beginSampleTooltip(cursor, x);
     ImGui::TextDisabled("%.1f s ago", static_cast<double>(timesS.back() - timesS[*at]));
     double sum = 0;
     for (const Series& one : series) {
@@ -372,14 +374,20 @@ ExportTable buckets(const char* id, std::span<const float> counts, const Positio
 }
 
 void pointerBucket(const Area& area, std::span<const float> counts, const PositionText& positionText) {
-    if (!ImGui::IsItemHovered() || counts.empty()) return;
+    const PlotCursor cursor = plotCursor(counts.size());
+    if (counts.empty() || !(cursor.at || plotIsHovered())) return;
     const float share = (ImGui::GetIO().MousePos.x - area.start.x) / std::max(area.width(), 1.0f);
     const auto buckets = static_cast<double>(counts.size());
-    const auto bucket =
-        static_cast<std::size_t>(std::clamp(static_cast<double>(share) * buckets, 0.0, buckets - 1));
+    const auto bucket = cursor.at.value_or(
+        static_cast<std::size_t>(std::clamp(static_cast<double>(share) * buckets, 0.0, buckets - 1)));
+    const float step = area.width() / static_cast<float>(counts.size());
+    const float left = area.start.x + static_cast<float>(bucket) * step;
+    if (cursor.at)
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {left, area.start.y}, {left + std::max(step, 1.0f), area.end.y}, faded(palette().text, 0.25f));
     const std::string count = axisText(static_cast<double>(counts[bucket]));
     const auto at = static_cast<double>(bucket);
-    ImGui::BeginTooltip();
+    beginSampleTooltip(cursor, left);
     ImGui::TextUnformatted(positionText ? fmt::format("{} to {}: {}", positionText(at / buckets),
                                                       positionText((at + 1) / buckets), count)
                                               .c_str()

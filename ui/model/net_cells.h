@@ -9,9 +9,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "planet/sphere/chunk_id.h"
 #include "ui/model/plan_view.h"
+#include "ui/model/plot_cursor.h"
 
 namespace worldy::ui {
 
@@ -35,5 +37,11 @@ struct NetSquare {
     double side = 1;
 };
 NetSquare netSquare(const planet::ChunkId& id);
+
+// Returns the chunk to which keys lead: an arrow to the neighbour on that side, Page Up to the parent, Page Down to the child
+// that contains the point, or to the south-west child if none does. Returns none if no key asks for a chunk. Without a chunk to
+// start from, every key leads to the root that contains the point. deepestLevel: of the planet's chunks.
+std::optional<planet::ChunkId> steppedChunk(const std::optional<planet::ChunkId>& from, const PlotKeys& keys,
+                                            const planet::FacePoint& point, int deepestLevel);
 
 }  // namespace worldy::ui

@@ -8,6 +8,7 @@
 
 #include "app/base/text.h"
 #include "ui/kit/filter_box.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/model/docking.h"
 #include "ui/model/font_symbols.h"
 #include "ui/model/key_names.h"
@@ -415,6 +416,38 @@ void addPicture(List& list) {
          .whyNot = [](const Context& c) { return unless(c.view.compare.on, "Nothing is compared."); }});
 }
 
+void addWipe(List& list) {
+    const auto add = [&](const char* id, const char* name, const char* help, const auto& moved) {
+        list.push_back({.id = id,
+                        .name = name,
+                        .help = help,
+                        .menu = Menu::View,
+                        .group = 1,
+                        .submenu = "Picture",
+                        .act =
+                            [=](const Context& c) {
+                                double& wipe = c.settings.compare.wipe;
+                                wipe = std::clamp(moved(wipe), 0.0, 1.0);
+                            },
+                        .whyNot =
+                            [](const Context& c) {
+                                if (!c.view.compare.on) return std::string("Nothing is compared.");
+                                return unless(c.settings.compare.mode == CompareMode::Wipe,
+                                              "The comparison shows no wipe; the Compare panel does.");
+                            }});
+    };
+    constexpr double step = 0.05;
+    add("wipe_left", "Move wipe left", "While comparing by a wipe: moves the divider left by 5 %.",
+        [](double wipe) { return wipe - step; });
+    list.back().keys = {"Ctrl+["};
+    add("wipe_right", "Move wipe right", "While comparing by a wipe: moves the divider right by 5 %.",
+        [](double wipe) { return wipe + step; });
+    list.back().keys = {"Ctrl+]"};
+    add("wipe_middle", "Wipe to the middle", "While comparing by a wipe: moves the divider to the middle.",
+        [](double) { return 0.5; });
+    list.back().keys = {"Ctrl+\\"};
+}
+
 void addTheme(List& list) {
     const auto add = [&](const char* id, const char* name, Theme theme) {
         list.push_back({.id = id,
@@ -750,6 +783,7 @@ void leave(const Context& c) {
     if (c.menu.palette.isOpen) return leavePalette(c.menu.palette);
     // ImGui itself closes popups that are not modal, before this.
     if (closePopups() || c.menu.popupWasOpen) return;
+    if (plotShowsFocus()) return;  // ImGui leaves the plot
     if (c.menu.showAbout || c.menu.showKeys)
         (c.menu.showAbout ? c.menu.showAbout : c.menu.showKeys) = false;
     else if (maximisedDock(c.workspace))
@@ -844,6 +878,7 @@ List makeActions() {
     addFocusedPanel(list);
     addDockSizes(list);
     addPicture(list);
+    addWipe(list);
     addTheme(list);
     addTextAndLayout(list);
     addFramePace(list);

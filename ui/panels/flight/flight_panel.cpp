@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "app/base/text.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/setting_controls.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
@@ -151,12 +153,21 @@ std::string ticksText(const ReplayNow& replay, double timeS) {
                        nearest->timeS);
 }
 
+// Returns the time to which keys lead.
+std::optional<double> soughtS(const ReplayNow& replay, const PlotKeys& keys) {
+    if (keys.toFirst) return 0.0;
+    if (keys.toLast) return replay.durationS;
+    if (keys.right == 0 && keys.pagesDown == 0) return std::nullopt;
+    const double moved = (0.01 * keys.right + 0.1 * keys.pagesDown) * replay.durationS;
+    return std::clamp(replay.timeS + moved, 0.0, replay.durationS);
+}
+
 // Dragging scrubs. Time runs evenly over its width.
 void timeline(const ReplayNow& replay, Commands& commands) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 size{std::max(ImGui::GetContentRegionAvail().x, 10.0f),
                       timelineLines * ImGui::GetTextLineHeight()};
-    ImGui::InvisibleButton("timeline", size);
+    plotItem("timeline", size);
     noteItem("Timeline");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(from, {from.x + size.x, from.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg),
@@ -169,9 +180,14 @@ void timeline(const ReplayNow& replay, Commands& commands) {
     const double share =
         std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - from.x) / size.x), 0.0, 1.0);
     const bool elsewhere = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0;
+    const PlotKeys keys = takePlotKeys(PlotReads::Samples);
+    const std::optional<double> sought = soughtS(replay, keys);
+    if (sought) commands.push_back(MoveReplayTo{*sought});
     if (ImGui::IsItemActive() && elsewhere) commands.push_back(MoveReplayTo{share * durationS});
     tooltip(fmt::format("{:.2f} s. {}\nRecorded splits (up) and merges (down) per frame. Drag to seek; going "
-                        "back replays the flight from the start.",
+                        "back replays the flight from the start. With the focus: Left, Right seek by a "
+                        "hundredth, PageUp, "
+                        "PageDown by a tenth, Home, End to the ends.",
                         share * durationS, ticksText(replay, share * durationS))
                 .c_str());
     exportPlot("level changes", exportTable<FlightTick>(

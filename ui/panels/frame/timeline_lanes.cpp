@@ -52,6 +52,8 @@ struct LaneSizes {
     float changes = 4 * change;
 };
 
+constexpr const char* timelineKeys =
+    "Shift+Left, Right: frame   Shift+PageUp, PageDown: mark   Enter: zoom to it";
 constexpr std::array shownChanges = {ChunkChangeKind::Came, ChunkChangeKind::Split, ChunkChangeKind::Merged,
                                      ChunkChangeKind::Popped};
 
@@ -246,7 +248,9 @@ const TimelineFrame* frameAt(const FrameTimeline& timeline, std::int64_t ns) {
     return first < last ? &timeline.frames()[first] : nullptr;
 }
 
-void tellFrame(const FrameTimeline& timeline, const TimelineFrame& frame) {
+// cursor: that of the keyboard, at this x; none for the pointer.
+void tellFrame(const FrameTimeline& timeline, const TimelineFrame& frame, const PlotCursor& cursor = {},
+               float x = 0) {
     std::array<std::size_t, chunkChangeKinds> counts{};
     float largestPx = 0;
     const auto [from, to] = timeline.changesIn(frame.number, frame.number);
@@ -255,7 +259,7 @@ void tellFrame(const FrameTimeline& timeline, const TimelineFrame& frame) {
         ++counts.at(static_cast<std::size_t>(change.kind));
         if (change.kind == ChunkChangeKind::Popped) largestPx = std::max(largestPx, change.value);
     }
-    ImGui::BeginTooltip();
+    beginSampleTooltip(cursor, x, timelineKeys);
     ImGui::Text("frame %llu: %s", static_cast<unsigned long long>(frame.number),
                 spanTimeText(frame.endNs - frame.beginNs).c_str());
     ImGui::Text("%zu blocks came, %zu split, %zu merged, %zu popped", counts[0], counts[1], counts[2],
@@ -264,6 +268,12 @@ void tellFrame(const FrameTimeline& timeline, const TimelineFrame& frame) {
     ImGui::TextDisabled("from %.6f s. Click: list its chunks. Double click: zoom to it.",
                         static_cast<double>(frame.beginNs - timeline.originNs()) * 1e-9);
     ImGui::EndTooltip();
+}
+
+const TimelineFrame* selectedFrame(const FrameTimeline& timeline, const TimelineLanesState& state) {
+    if (!state.frame) return nullptr;
+    const auto frame = std::ranges::lower_bound(timeline.frames(), *state.frame, {}, &TimelineFrame::number);
+    return frame != timeline.frames().end() && frame->number == *state.frame ? &*frame : nullptr;
 }
 
 // Draws the selected frame and the marked range over all lanes, and shades the time of which not all is kept.
@@ -282,9 +292,8 @@ void drawMarks(const FrameTimeline& timeline, const TimeScale& scale, const Time
         const auto [from, to] = area(state.marked->fromNs, state.marked->toNs, palette().warning, 0.13f);
         for (const float x : {from, to}) list.AddLine({x, y}, {x, bottom}, packed(palette().warning), 1);
     }
-    if (!state.frame) return;
-    const auto frame = std::ranges::lower_bound(timeline.frames(), *state.frame, {}, &TimelineFrame::number);
-    if (frame == timeline.frames().end() || frame->number != *state.frame) return;
+    const TimelineFrame* const frame = selectedFrame(timeline, state);
+    if (!frame) return;
     if (frame->endNs > scale.range.fromNs && frame->beginNs < scale.range.toNs)
         area(frame->beginNs, frame->endNs, palette().text, 0.12f);
 }
@@ -309,29 +318,42 @@ void stepFrame(const FrameTimeline& timeline, TimelineLanesState& state, const T
     state.held = true;
 }
 
+// Selects the next frame and adds it to the marked range, which begins with the frame that was selected before.
+void markFrame(const FrameTimeline& timeline, TimelineLanesState& state, const TimeRange& all, int step) {
+    const auto add = [&] {
+        const TimelineFrame* const frame = selectedFrame(timeline, state);
+        if (!frame) return;
+        const TimeRange marked = state.marked.value_or(TimeRange{frame->beginNs, frame->endNs});
+        state.marked =
+            TimeRange{std::min(marked.fromNs, frame->beginNs), std::max(marked.toNs, frame->endNs)};
+    };
+    add();
+    stepFrame(timeline, state, all, step);
+    add();
+}
+
+void zoomToFrame(const TimelineFrame& frame, TimelineLanesState& state, const TimeRange& all) {
+    const std::int64_t marginNs = (frame.endNs - frame.beginNs) / 20;
+    holdAt(state, within({frame.beginNs - marginNs, frame.endNs + marginNs}, all));
+    state.frame = frame.number;
+}
+
 void keyboard(const FrameTimeline& timeline, TimelineLanesState& state, const TimeRange& all) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (!ImGui::IsItemFocused() || io.WantTextInput || io.KeyCtrl || io.KeyAlt) return;
-    takePlotKeys();
-    const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
-    constexpr double step = 0.1, factor = 0.7;
-    for (const auto& [key, direction] :
-         {std::pair(ImGuiKey_LeftArrow, -1), std::pair(ImGuiKey_RightArrow, 1)}) {
-        if (!pressed(key)) continue;
-        if (io.KeyShift)
-            stepFrame(timeline, state, all, direction);
-        else
-            holdAt(state, moved(state.shown, direction * step, all));
-    }
-    if (pressed(ImGuiKey_UpArrow)) holdAt(state, zoomed(state.shown, 0.5, factor, all));
-    if (pressed(ImGuiKey_DownArrow)) holdAt(state, zoomed(state.shown, 0.5, 1 / factor, all));
-    if (pressed(ImGuiKey_Home)) holdAt(state, within({all.fromNs, all.fromNs + state.shown.lengthNs()}, all));
-    if (pressed(ImGuiKey_End)) state.held = false;
-    for (const ImWchar typed : io.InputQueueCharacters) {
-        if (typed == '+' || typed == '=') holdAt(state, zoomed(state.shown, 0.5, factor, all));
-        if (typed == '-') holdAt(state, zoomed(state.shown, 0.5, 1 / factor, all));
+    const PlotKeys keys = takePlotKeys(PlotReads::View);
+    constexpr double step = 0.1, page = 0.9, factor = 0.7;
+    if (keys.right != 0 && keys.withShift) stepFrame(timeline, state, all, keys.right);
+    if (keys.right != 0 && !keys.withShift) holdAt(state, moved(state.shown, keys.right * step, all));
+    if (keys.pagesDown != 0 && keys.withShift) markFrame(timeline, state, all, keys.pagesDown);
+    if (keys.pagesDown != 0 && !keys.withShift) holdAt(state, moved(state.shown, keys.pagesDown * page, all));
+    if (const int in = keys.up + keys.zoomIn; in != 0)
+        holdAt(state, zoomed(state.shown, 0.5, std::pow(factor, in), all));
+    if (keys.toFirst) holdAt(state, within({all.fromNs, all.fromNs + state.shown.lengthNs()}, all));
+    if (keys.toLast) state.held = false;
+    const TimelineFrame* const frame = selectedFrame(timeline, state);
+    if (keys.acts && frame) zoomToFrame(*frame, state, all);
+    if (!ImGui::IsItemFocused() || ImGui::GetIO().WantTextInput || ImGui::GetIO().KeyCtrl) return;
+    for (const ImWchar typed : ImGui::GetIO().InputQueueCharacters)
         if (typed == 'f' || typed == 'F') fitTimeline(timeline, state);
-    }
 }
 
 void drag(const TimeScale& scale, TimelineLanesState& state, const TimeRange& all) {
@@ -364,13 +386,10 @@ void mouse(const FrameTimeline& timeline, const TimeScale& scale, TimelineLanesS
     const TimelineFrame* const frame = frameAt(timeline, scale.timeAt(io.MousePos.x));
     const bool clicked = ImGui::IsItemDeactivated() && state.movedPx < 3 && !state.marks;
     if (clicked && frame) state.frame = frame->number;
-    if (!ImGui::IsItemHovered()) return;
+    if (!plotIsHovered()) return;
     ImGui::SetItemUsingMouseWheel();
-    if (frame && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !io.KeyShift) {
-        const std::int64_t marginNs = (frame->endNs - frame->beginNs) / 20;
-        holdAt(state, within({frame->beginNs - marginNs, frame->endNs + marginNs}, all));
-        state.frame = frame->number;
-    }
+    if (frame && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !io.KeyShift)
+        zoomToFrame(*frame, state, all);
     if (io.MouseWheel == 0) return;
     if (io.KeyShift)
         ImGui::SetScrollY(ImGui::GetScrollY() - 3 * io.MouseWheel * ImGui::GetFontSize());
@@ -457,16 +476,13 @@ void timelineLanes(const FrameTimeline& timeline, TimelineLanesState& state) {
     ImGui::BeginChild("lanes", {label + scale.width + scrollbar, height}, false,
                       ImGuiWindowFlags_NoScrollWithMouse);
     const ImVec2 start = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton("lanes", {label + scale.width, lanesHeight(timeline, sizes)});
+    plotItem("lanes", {label + scale.width, lanesHeight(timeline, sizes)});
     noteItem("Lanes");
-    const bool isHovered = ImGui::IsItemHovered();
+    const bool isHovered = plotIsHovered();
     mouse(timeline, scale, state, all);
     keyboard(timeline, state, all);
-    if (ImGui::IsItemFocused() && !ImGui::GetCurrentContext()->NavDisableHighlight)
-        ImGui::GetWindowDrawList()->AddRect(ImGui::GetWindowPos(),
-                                            {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
-                                             ImGui::GetWindowPos().y + ImGui::GetWindowHeight()},
-                                            ImGui::GetColorU32(ImGuiCol_NavHighlight));
+    if (const TimelineFrame* const frame = selectedFrame(timeline, state); frame && plotHasKeyboard())
+        tellFrame(timeline, *frame, {.at = frame->number}, scale.at(frame->beginNs));
     exportPlot("timeline", timelineFramesTable(timeline, toldRange(state)));
     drawLanes(timeline, scale, state, start, sizes, isHovered);
     ImGui::EndChild();

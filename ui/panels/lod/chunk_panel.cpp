@@ -11,6 +11,7 @@
 #include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/marked_box.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/source_readings.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
@@ -326,9 +327,10 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float pad = ImGui::GetFontSize() * 0.3f;
     const ImVec2 size(ImGui::GetContentRegionAvail().x, lines * ImGui::GetFontSize());
-    ImGui::InvisibleButton("profile", size);
+    plotItem("profile", size);
     noteItem("Profile");
-    const bool hovered = ImGui::IsItemHovered();
+    const bool hovered = plotIsHovered();
+    const PlotCursor cursor = plotCursor(across.heightsM.size());
     ImGui::EndGroup();
     ExportTable heights{.name = "chunk profiles",
                         .columns = {{"vertex"}, {"west_to_east_m"}, {"south_to_north_m"}},
@@ -356,16 +358,20 @@ void profiles(const EditorView& view, const ChunkNode& node, float lines) {
     };
     scaleEnd(top, corner.y);
     scaleEnd(bottom, end.y - ImGui::GetFontSize());
-    if (!hovered) return;
-    const float share = std::clamp((ImGui::GetIO().MousePos.x - corner.x) / size.x, 0.0f, 1.0f);
-    const auto at =
-        static_cast<std::size_t>(std::lround(share * static_cast<float>(across.heightsM.size() - 1)));
+    if (!hovered && !cursor.at) return;
+    const auto last = static_cast<float>(across.heightsM.size() - 1);
+    const float pointed = std::clamp((ImGui::GetIO().MousePos.x - corner.x) / size.x, 0.0f, 1.0f);
+    const float share = cursor.at ? static_cast<float>(*cursor.at) / last : pointed;
+    const auto at = static_cast<std::size_t>(std::lround(share * last));
     const float x = corner.x + share * size.x;
     drawList.AddLine({x, corner.y}, {x, end.y}, packed(palette().text, 0.6f));
-    tooltip(fmt::format("at {:.0f} %\nwest to east {}\nsouth to north {}", static_cast<double>(100 * share),
-                        distanceText(static_cast<double>(across.heightsM[at])),
-                        distanceText(static_cast<double>(up.heightsM[at])))
-                .c_str());
+    beginSampleTooltip(cursor, x);
+    ImGui::TextUnformatted(fmt::format("at {:.0f} %\nwest to east {}\nsouth to north {}",
+                                       static_cast<double>(100 * share),
+                                       distanceText(static_cast<double>(across.heightsM[at])),
+                                       distanceText(static_cast<double>(up.heightsM[at])))
+                               .c_str());
+    ImGui::EndTooltip();
 }
 
 }  // namespace

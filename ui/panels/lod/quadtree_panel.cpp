@@ -13,6 +13,7 @@
 #include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/legend_rows.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -195,7 +196,7 @@ void netMouse(const NetData& data, const Rect& area, QuadtreePanelState& state, 
         state.focus =
             movedBy(netSize, state.focus, area, static_cast<double>(moved.x), static_cast<double>(moved.y));
     }
-    if (!ImGui::IsItemHovered()) return;
+    if (!plotIsHovered()) return;
     ImGui::SetItemUsingMouseWheel();
     if (io.MouseWheel != 0)
         state.focus =
@@ -213,14 +214,58 @@ void netMouse(const NetData& data, const Rect& area, QuadtreePanelState& state, 
     if (ImGui::IsItemDeactivated()) commands.emplace_back(SelectChunk{hit->id});
 }
 
+// Moves the selection by the keys, and keeps it in sight.
+void netKeys(const EditorView& view, const NetData& data, const Rect& area, QuadtreePanelState& state,
+             Commands& commands) {
+    const PlotKeys keys = takePlotKeys(PlotReads::View);
+    const std::optional<planet::ChunkId>& selected = view.focus.selected;
+    const planet::FacePoint below = planet::facePointFromDirection(glm::normalize(data.eyeM));
+    if (const auto to = steppedChunk(selected, keys, below, deepestLevelOf(data.tree.shape))) {
+        commands.emplace_back(SelectChunk{*to});
+        const NetSquare square = netSquare(*to);
+        const NetPoint low = onScreen(placementOf(netSize, state.focus, area), {square.x, square.y});
+        const double sidePx = square.side * placementOf(netSize, state.focus, area).scalePx;
+        const bool isInSight = low.x >= area.x && low.y >= area.y && low.x + sidePx <= area.x + area.width &&
+                               low.y + sidePx <= area.y + area.height;
+        constexpr double leastSidePx = 12;
+        if (sidePx < leastSidePx || (!isInSight && sidePx < area.height))
+            state.focus = centredOn(state.focus, area, *to, leastSidePx);
+    }
+    if (keys.acts && selected) commands.emplace_back(LookAtChunk{*selected});
+    if (keys.toFirst) state.focus = {};
+    if (keys.zoomIn == 0) return;
+    NetPoint about{area.x + area.width / 2, area.y + area.height / 2};
+    if (selected) {
+        const NetSquare square = netSquare(*selected);
+        about = onScreen(placementOf(netSize, state.focus, area),
+                         {square.x + square.side / 2, square.y + square.side / 2});
+    }
+    state.focus = zoomedAbout(netSize, state.focus, area, about.x, about.y, std::pow(1.35, keys.zoomIn));
+}
+
+// Tells the selected chunk while the keyboard is used in the net.
+void tellSelected(const EditorView& view, const NetData& data) {
+    if (!plotHasKeyboard()) return;
+    ImGui::BeginTooltip();
+    if (view.focus.selected) {
+        const planet::ChunkExplanation told = planet::explainChunk(*view.planet, *view.focus.selected);
+        ImGui::TextUnformatted(hitText(data, {*view.focus.selected, told.node, told.state}).c_str());
+    }
+    ImGui::TextDisabled(
+        "arrows: neighbour   PageUp, PageDown: parent, child\n+ -: zoom   Home: fit   Enter: look at it");
+    ImGui::EndTooltip();
+}
+
 void net(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanelState& state,
          const OverlaySettings& overlay, Commands& commands) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const Rect area{corner.x, corner.y, size.x, size.y};
     state.area = area;
-    ImGui::InvisibleButton("net", size);
+    plotItem("net", size);
     noteItem("Net");
     netMouse(data, area, state, commands);
+    netKeys(view, data, area, state, commands);
+    tellSelected(view, data);
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     drawList.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg, 0.5f));

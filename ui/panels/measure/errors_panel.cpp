@@ -17,6 +17,7 @@
 #include "ui/kit/filter_box.h"
 #include "ui/kit/inspection.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -135,7 +136,7 @@ void drawAxes(const ScatterScale& scale, double tauPx) {
 
 std::optional<std::size_t> nearestToPointer(const ScatterScale& scale,
                                             const std::vector<ChunkError>& chunks) {
-    if (!ImGui::IsItemHovered()) return std::nullopt;
+    if (!plotIsHovered()) return std::nullopt;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const float reach = ImGui::GetFontSize() * 0.8f;
     float best = reach * reach;
@@ -159,20 +160,22 @@ void ring(const ScatterScale& scale, const ErrorMeasurement& last, const std::op
                                           ImGui::GetFontSize() * 0.35f, packed(colour), 0, 2);
 }
 
-void pointerOnChunk(const ChunkError& chunk, const EditorView& view, Commands& commands) {
+void pointerOnChunk(const ChunkError& chunk, const PlotCursor& cursor, float x, const EditorView& view,
+                    Commands& commands) {
     commands.push_back(HoverChunk{chunk.id});
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) commands.push_back(SelectChunk{chunk.id});
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    if (cursor.acts || (!cursor.at && ImGui::IsMouseClicked(ImGuiMouseButton_Left)))
+        commands.push_back(SelectChunk{chunk.id});
+    if (!cursor.at && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         const planet::View& from = view.instruments.errors.last->lodView;
         commands.push_back(inspectionOf(from, from, chunk.worstM, view.planet->tree().shape.radiusM));
     }
-    ImGui::BeginTooltip();
+    beginSampleTooltip(cursor, x);
     ImGui::TextUnformatted(planet::toString(chunk.id).c_str());
     ImGui::Text("measured %s, drawn bound %s", finePx(chunk.facingPx).c_str(),
                 finePx(chunk.drawnBoundPx).c_str());
     ImGui::Text("max error %s", distanceText(chunk.errorM).c_str());
     if (planet::isViolation(chunk)) ImGui::TextColored(palette().bad, "violation");
-    ImGui::TextDisabled("click: select   double-click: go to the max error");
+    ImGui::TextDisabled("click or Enter: select   double-click: go to the max error");
     ImGui::EndTooltip();
 }
 
@@ -198,7 +201,7 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
     const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize());
     const float height = std::round(std::min(width, 13 * ImGui::GetTextLineHeightWithSpacing()));
     const ImVec2 start = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton("scatter", {width, height});
+    plotItem("scatter", {width, height});
     noteItem("scatter");
     const ScatterScale scale{start, {start.x + width, start.y + height}, topOf(last), state.logarithmic};
     ImGui::PushClipRect(scale.start, scale.end, true);
@@ -219,8 +222,9 @@ void scatter(const EditorView& view, ErrorsPanelState& state, Commands& commands
     exportPlot("scatter", exportTable<ChunkError>(
                               "true error plot", chunks.size(), [&](std::size_t row) { return chunks[row]; },
                               errorFields()));
-    if (const auto nearest = nearestToPointer(scale, last.report.chunks))
-        return pointerOnChunk(last.report.chunks[*nearest], view, commands);
+    const PlotCursor cursor = plotCursor(chunks.size());
+    if (const auto told = cursor.at ? cursor.at : nearestToPointer(scale, chunks))
+        return pointerOnChunk(chunks[*told], cursor, scale.at(chunks[*told]).x, view, commands);
     tooltip(
         "One dot per chunk: drawn bound on the horizontal axis, measured error on the vertical axis, in "
         "facing pixels. On the diagonal the bound is exact; above it, it is violated; far below it, "

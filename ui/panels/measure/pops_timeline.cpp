@@ -11,6 +11,7 @@
 #include "app/base/text.h"
 #include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -113,7 +114,11 @@ const planet::PopEvent* nearestTo(const Plot& plot, const std::vector<const plan
     return best;
 }
 
-void tellAt(const Plot& plot, const planet::PopMeter& meter, const planet::PopEvent* event, float x) {
+constexpr const char* popKeys =
+    "Left, Right: event   PageUp, PageDown: move   Up, Down, + -: zoom   End: newest";
+
+void tellAt(const Plot& plot, const planet::PopMeter& meter, const planet::PopEvent* event, float x,
+            const PlotCursor& cursor = {}) {
     const double atS = plot.timeAt(x);
     std::size_t late = 0;
     double worstPx = 0;
@@ -122,7 +127,7 @@ void tellAt(const Plot& plot, const planet::PopMeter& meter, const planet::PopEv
         ++late;
         worstPx = std::max(worstPx, arrival.worstEpsPx);
     }
-    ImGui::BeginTooltip();
+    beginSampleTooltip(cursor, x, popKeys);
     ImGui::Text("%s ago", durationText(std::max(meter.lastTimeS() - atS, 0.0)).c_str());
     if (event) {
         ImGui::Text("%s, level %d to %d", planet::toString(event->chunk).c_str(), event->fromLevel,
@@ -144,7 +149,7 @@ void moveInTime(const Plot& plot, PopTimelineState& state) {
         state.behindS += movedPx / width * state.spanS;
         state.movedPx += std::abs(movedPx);
     }
-    if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+    if (plotIsHovered() && io.MouseWheel != 0) {
         // The time under the pointer stays under it.
         const double right = static_cast<double>((plot.end.x - io.MousePos.x)) / width;
         const double before = state.spanS;
@@ -153,6 +158,40 @@ void moveInTime(const Plot& plot, PopTimelineState& state) {
         state.behindS += right * (before - state.spanS);
     }
     state.behindS = std::clamp(state.behindS, 0.0, planet::PopMeter::keptS - state.spanS);
+}
+
+// Returns the place of the selected event in the meter's list; none if it is gone.
+std::optional<std::size_t> placeOf(const planet::PopMeter& meter, const std::optional<PopKey>& selected) {
+    const auto& events = meter.events();
+    const auto found = std::find_if(events.begin(), events.end(),
+                                    [&](const auto& event) { return keyOf(event) == selected; });
+    if (found == events.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - events.begin());
+}
+
+// Moves and zooms the timeline by the keys. Returns the event that they lead to; it is brought into view.
+std::optional<PopKey> popsByKeys(const planet::PopMeter& meter, const std::optional<PopKey>& selected,
+                                 PopTimelineState& state) {
+    const PlotKeys keys = takePlotKeys(PlotReads::View);
+    const double before = state.spanS;
+    state.spanS =
+        std::clamp(before * std::pow(0.8, keys.up + keys.zoomIn), leastSpanS, planet::PopMeter::keptS);
+    state.behindS += (before - state.spanS) / 2 - 0.5 * keys.pagesDown * state.spanS;
+    if (keys.toFirst) state.behindS = planet::PopMeter::keptS;
+    if (keys.toLast) state.behindS = 0;
+    std::optional<PopKey> reached;
+    if (keys.right != 0 && !meter.events().empty()) {
+        const std::size_t count = meter.events().size();
+        const auto at = placeOf(meter, selected);
+        const planet::PopEvent& event =
+            meter.events()[at ? movedCursor(*at, count, {.right = keys.right}) : count - 1];
+        reached = keyOf(event);
+        const double agoS = meter.lastTimeS() - event.timeS;
+        if (agoS < state.behindS || agoS > state.behindS + state.spanS)
+            state.behindS = agoS - state.spanS / 2;
+    }
+    state.behindS = std::clamp(state.behindS, 0.0, planet::PopMeter::keptS - state.spanS);
+    return reached;
 }
 
 }  // namespace
@@ -182,14 +221,15 @@ std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
     const float width = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize());
     const ImVec2 start = ImGui::GetCursorScreenPos();
     const float height = std::round(lines * ImGui::GetTextLineHeightWithSpacing());
-    ImGui::InvisibleButton("timeline", {width, height});
+    plotItem("timeline", {width, height});
     ImGui::SetItemUsingMouseWheel();
     noteItem("Timeline");
     Plot plot{start, {start.x + width, start.y + height}};
     plot.top = start.y + std::round(ImGui::GetFontSize() * 0.6f);
     if (ImGui::IsItemActivated()) state.movedPx = 0;
     moveInTime(plot, state);
-    const bool hovered = ImGui::IsItemHovered();
+    const std::optional<PopKey> reached = popsByKeys(meter, selected, state);
+    const bool hovered = plotIsHovered();
     const bool clicked = ImGui::IsItemDeactivated() && state.movedPx < 4;
     plot.toS = meter.lastTimeS() - state.behindS;
     plot.fromS = plot.toS - state.spanS;
@@ -209,11 +249,15 @@ std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
                exportTable<planet::PopEvent>(
                    "pops timeline", events.size(),
                    [&](std::size_t row) -> const planet::PopEvent& { return events[row]; }, popFields()));
-    if (!hovered) return std::nullopt;
+    if (const auto at = placeOf(meter, selected); at && plotHasKeyboard()) {
+        const planet::PopEvent& event = events[*at];
+        tellAt(plot, meter, &event, plot.x(event.timeS), {.at = *at});
+    }
+    if (!hovered) return reached;
     const float x = ImGui::GetIO().MousePos.x;
     const planet::PopEvent* event = nearestTo(plot, columns, x);
     tellAt(plot, meter, event, x);
-    return clicked && event ? std::optional(keyOf(*event)) : std::nullopt;
+    return clicked && event ? std::optional(keyOf(*event)) : reached;
 }
 
 }  // namespace worldy::ui

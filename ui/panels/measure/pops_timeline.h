@@ -40,8 +40,8 @@ ImVec4 popColour(planet::PopCause cause);
 // Returns the values of an event that are copied and saved.
 std::vector<ExportField<planet::PopEvent>> popFields();
 
-// Draws the timeline: the wheel zooms in time, dragging moves it. The selected event is marked. Returns the
-// event that was clicked.
+// Draws the timeline: the wheel zooms in time, dragging moves it, and keys do both. The selected event is marked.
+// Returns the event that was clicked or reached by the keys.
 std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
                                   const std::optional<PopKey>& selected, PopTimelineState& state);
 

@@ -12,6 +12,7 @@
 #include "app/base/text.h"
 #include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -79,11 +80,13 @@ void drawAxisTexts(const ProfileArea& area, const planet::ProfileSummary& summar
         dim, length.c_str());
 }
 
-void tellPlace(const ProfileArea& area, const planet::GroundProfile& profile) {
+std::size_t pointUnderPointer(const ProfileArea& area, const planet::GroundProfile& profile) {
     const float share = (ImGui::GetIO().MousePos.x - area.start.x) / (area.end.x - area.start.x);
     const auto last = static_cast<float>(profile.points.size() - 1);
-    const planet::ProfilePoint& point =
-        profile.points[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * last))];
+    return static_cast<std::size_t>(std::lround(std::clamp(share, 0.0f, 1.0f) * last));
+}
+
+void tellPoint(const ProfileArea& area, const planet::ProfilePoint& point, const PlotCursor& cursor) {
     const float x = area.at(point.alongM, 0).x;
     ImGui::GetWindowDrawList()->AddLine({x, area.start.y}, {x, area.end.y}, packed(palette().dim));
     const planet::Geographic place = planet::geographicFromDirection(point.direction);
@@ -93,11 +96,13 @@ void tellPlace(const ProfileArea& area, const planet::GroundProfile& profile) {
         drawn = fmt::format("{}, {} too {}", heightText(*point.drawnM), heightText(std::abs(aboveM)),
                             aboveM > 0 ? "high" : "low");
     }
-    ImGui::SetTooltip(
-        "%s", fmt::format("{} from A\n{}\nfinest data {}\ndrawn surface {}", distanceText(point.alongM),
-                          placeText(glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad)),
-                          heightText(point.finestM), drawn)
-                  .c_str());
+    beginSampleTooltip(cursor, x);
+    ImGui::TextUnformatted(
+        fmt::format("{} from A\n{}\nfinest data {}\ndrawn surface {}", distanceText(point.alongM),
+                    placeText(glm::degrees(place.latitudeRad), glm::degrees(place.longitudeRad)),
+                    heightText(point.finestM), drawn)
+            .c_str());
+    ImGui::EndTooltip();
 }
 
 ExportTable profileTable(const planet::GroundProfile& profile) {
@@ -115,7 +120,8 @@ ExportTable profileTable(const planet::GroundProfile& profile) {
 
 }  // namespace
 
-void rulerProfile(const planet::GroundProfile& profile, const planet::ProfileSummary& summary, float lines) {
+std::optional<std::size_t> rulerProfile(const planet::GroundProfile& profile,
+                                        const planet::ProfileSummary& summary, float lines) {
     const std::vector<std::pair<const char*, ImVec4>> names = {{"finest data", seriesColour(0)},
                                                                {"drawn surface", seriesColour(1)}};
     for (const auto& [name, colour] : names) {
@@ -125,7 +131,7 @@ void rulerProfile(const planet::GroundProfile& profile, const planet::ProfileSum
     const ImVec2 start = ImGui::GetCursorScreenPos();
     const ImVec2 size(std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize()),
                       std::round(lines * ImGui::GetTextLineHeightWithSpacing()));
-    ImGui::InvisibleButton("profile", size);
+    plotItem("profile", size);
     noteItem("Profile");
     const ImVec2 end(start.x + size.x, start.y + size.y);
     ImGui::GetWindowDrawList()->AddRectFilled(start, end, ImGui::GetColorU32(ImGuiCol_FrameBg),
@@ -139,8 +145,12 @@ void rulerProfile(const planet::GroundProfile& profile, const planet::ProfileSum
                 [](const planet::ProfilePoint& point) { return point.drawnM; });
     drawAxisTexts(area, summary);
     ImGui::PopClipRect();
-    if (ImGui::IsItemHovered()) tellPlace(area, profile);
+    const PlotCursor cursor = plotCursor(profile.points.size());
+    std::optional<std::size_t> told = cursor.at;
+    if (!told && plotIsHovered()) told = pointUnderPointer(area, profile);
+    if (told) tellPoint(area, profile.points[*told], cursor);
     exportPlot("profile", profileTable(profile));
+    return told;
 }
 
 }  // namespace worldy::ui

@@ -13,6 +13,7 @@
 #include "app/base/text.h"
 #include "ui/kit/exports.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/plots.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
@@ -168,6 +169,31 @@ void drawStarvations(ImDrawList& list, const EditorView& view, const Axis& axis,
     }
 }
 
+// held: the share of the trace that stays where it is. At least two samples stay in view.
+void zoomAbout(double held, double steps, std::size_t samples, TraceTimelineState& state) {
+    const double factor = std::pow(1 / 1.35, steps);
+    state.from = std::max(held - (held - state.from) * factor, 0.0);
+    state.to = std::min(held + (state.to - held) * factor, 1.0);
+    const double least = 2 / std::max(static_cast<double>(samples), 2.0);
+    if (state.to - state.from < least) state.to = std::min(state.from + least, 1.0);
+    if (state.to - state.from < least) state.from = std::max(state.to - least, 0.0);
+}
+
+// Shows other frames and zooms by the keys. at: the sample of the frame that is shown.
+void keyboard(const Axis& axis, std::size_t at, TraceTimelineState& state, Commands& commands) {
+    const PlotKeys keys = takePlotKeys(PlotReads::View);
+    const std::size_t to = movedCursor(at, axis.samples.size(), keys);
+    if (to != at) commands.push_back(ShowTraceFrame{axis.samples[to].frame});
+    const double firstS = axis.samples.front().timeS;
+    const double durationS = std::max(axis.samples.back().timeS - firstS, 1e-9);
+    const double shown = (axis.samples[to].timeS - firstS) / durationS;
+    if (const int in = keys.up + keys.zoomIn; in != 0) zoomAbout(shown, in, axis.samples.size(), state);
+    if (to == at || (shown >= state.from && shown <= state.to)) return;
+    const double half = (state.to - state.from) / 2;
+    state.from = std::clamp(shown - half, 0.0, 1 - 2 * half);
+    state.to = state.from + 2 * half;
+}
+
 void mouse(const Axis& axis, double beginS, double endS, TraceTimelineState& state, Commands& commands) {
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsItemActive() && !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
@@ -175,18 +201,12 @@ void mouse(const Axis& axis, double beginS, double endS, TraceTimelineState& sta
             axis.sampleAt(axis.timeAt(std::clamp(io.MousePos.x, axis.x, axis.x + axis.width)));
         commands.push_back(ShowTraceFrame{axis.samples[sample].frame});
     }
-    if (!ImGui::IsItemHovered()) return;
+    if (!plotIsHovered()) return;
     ImGui::SetItemUsingMouseWheel();
     const double durationS = std::max(endS - beginS, 1e-9);
     if (io.MouseWheel != 0) {
         const double held = (axis.timeAt(io.MousePos.x) - beginS) / durationS;
-        const double factor = std::pow(1 / 1.35, static_cast<double>(io.MouseWheel));
-        state.from = std::max(held - (held - state.from) * factor, 0.0);
-        state.to = std::min(held + (state.to - held) * factor, 1.0);
-        // At least two samples stay in view.
-        const double least = 2 / std::max(static_cast<double>(axis.samples.size()), 2.0);
-        if (state.to - state.from < least) state.to = std::min(state.from + least, 1.0);
-        if (state.to - state.from < least) state.from = std::max(state.to - least, 0.0);
+        zoomAbout(held, static_cast<double>(io.MouseWheel), axis.samples.size(), state);
     }
     if (ImGui::IsMouseDragging(ImGuiMouseButton_Right)) {
         const double by = -static_cast<double>(io.MouseDelta.x / axis.width) * (state.to - state.from);
@@ -197,7 +217,8 @@ void mouse(const Axis& axis, double beginS, double endS, TraceTimelineState& sta
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Right)) state.from = 0, state.to = 1;
     const std::size_t sample = axis.sampleAt(axis.timeAt(io.MousePos.x));
     tooltip(fmt::format("frame {}, {:.3f} s\nDrag to move through the trace. The wheel zooms, the right "
-                        "button moves; double-clicking it shows everything.",
+                        "button moves; double-clicking it shows everything.\nWith the focus: Left, Right, "
+                        "PageUp, PageDown, Home, End show other frames; Up, Down, + and - zoom.",
                         axis.samples[sample].frame, axis.samples[sample].timeS)
                 .c_str());
 }
@@ -238,8 +259,7 @@ void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& 
     const float height =
         std::max(std::floor((room.y - gap) / static_cast<float>(strips.size())) - gap, least);
     const ImVec2 size(std::max(room.x, 20.0f), (height + gap) * static_cast<float>(strips.size()));
-    ImGui::InvisibleButton("timeline", size,
-                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+    plotItem("timeline", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
     noteItem("Timeline");
     // The right button moves the timeline, so its menu is behind the button in its corner.
     exportPlot("timeline", samplesOf(history->samples, strips), false);
@@ -253,6 +273,7 @@ void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& 
     const std::size_t sample = after == history->samples.begin()
                                    ? 0
                                    : static_cast<std::size_t>(after - history->samples.begin()) - 1;
+    keyboard(axis, sample, state, commands);
     float y = corner.y;
     for (const Strip& strip : strips) {
         list.AddRectFilled({corner.x, y}, {corner.x + size.x, y + height},

@@ -10,6 +10,7 @@
 #include "ui/kit/exports.h"
 #include "ui/kit/front_chart.h"
 #include "ui/kit/item_map.h"
+#include "ui/kit/plot_keys.h"
 #include "ui/kit/theme.h"
 
 namespace worldy::ui {
@@ -143,10 +144,10 @@ void drawUpright(const PlotScale& scale, float x, const ImVec4& colour) {
     ImGui::GetWindowDrawList()->AddLine({x, scale.start.y}, {x, scale.end.y}, packed(colour, 0.7f));
 }
 
-void tell(const WhatIfPlot& plot, std::size_t point) {
+void tell(const WhatIfPlot& plot, const PlotCursor& cursor, std::size_t point, float x) {
     const std::uint64_t last = point + 1 < plot.frames.size() ? plot.frames[point + 1] - 1
                                                               : plot.frames[point] + plot.framesInPoint - 1;
-    ImGui::BeginTooltip();
+    beginSampleTooltip(cursor, x);
     const std::string frames = last > plot.frames[point] && plot.framesInPoint > 1
                                    ? fmt::format("frames {} to {}, largest values", plot.frames[point], last)
                                    : fmt::format("frame {}", plot.frames[point]);
@@ -157,7 +158,7 @@ void tell(const WhatIfPlot& plot, std::size_t point) {
         ImGui::SameLine();
         ImGui::TextUnformatted(std::isfinite(value) ? plot.text(value).c_str() : "not known");
     }
-    ImGui::TextDisabled("click: show this frame");
+    ImGui::TextDisabled("click or Enter: show this frame");
     ImGui::EndTooltip();
 }
 
@@ -182,7 +183,7 @@ std::optional<std::uint64_t> whatIfPlot(const WhatIfPlot& plot) {
     const ImVec2 size{std::max(room.x, ImGui::GetFontSize()),
                       std::max(room.y, leastPlotLines * ImGui::GetTextLineHeightWithSpacing())};
     const ImVec2 start = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton("flight", size);
+    plotItem("flight", size);
     noteItem("flight");
     const ImVec2 end{start.x + size.x, start.y + size.y};
     ImGui::GetWindowDrawList()->AddRectFilled(start, end, ImGui::GetColorU32(ImGuiCol_FrameBg));
@@ -198,11 +199,13 @@ std::optional<std::uint64_t> whatIfPlot(const WhatIfPlot& plot) {
     for (std::size_t i = plot.lines.size(); i-- > 0;) drawLine(scale, plot.lines[i]);
     drawLevelTexts(scale, plot, levels);
     std::optional<std::uint64_t> clicked;
-    if (ImGui::IsItemHovered()) {
-        const std::size_t point = scale.pointAt(ImGui::GetIO().MousePos.x);
+    const PlotCursor cursor = plotCursor(plot.frames.size());
+    if (cursor.at || plotIsHovered()) {
+        const std::size_t point = cursor.at ? *cursor.at : scale.pointAt(ImGui::GetIO().MousePos.x);
         drawUpright(scale, scale.x(point), palette().text);
-        tell(plot, point);
-        if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) clicked = plot.frames[point];
+        tell(plot, cursor, point, scale.x(point));
+        if (cursor.acts || (!cursor.at && ImGui::IsMouseClicked(ImGuiMouseButton_Left)))
+            clicked = plot.frames[point];
     }
     ImGui::PopClipRect();
     exportPlot("flight", samplesOf(plot));

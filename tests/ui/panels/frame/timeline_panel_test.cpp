@@ -22,8 +22,9 @@ protected:
     TimelinePanel() {
         editor_.fly({}, 30);
         ImGuiIO& io = ImGui::GetIO();
-        for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow,
-                                   ImGuiKey_DownArrow, ImGuiKey_Home, ImGuiKey_End})
+        for (const ImGuiKey key :
+             {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow, ImGuiKey_Home,
+              ImGuiKey_End, ImGuiKey_PageUp, ImGuiKey_PageDown, ImGuiKey_Enter, ImGuiKey_Space})
             io.KeyMap[key] = 10 + key;
         frame();
         frame();
@@ -189,6 +190,30 @@ TEST_F(TimelinePanel, keysMoveZoomAndFitWhileTheLanesHaveTheFocus) {
     EXPECT_EQ(lanes().shown.lengthNs(), all.lengthNs());
     key(ImGuiKey_End);
     EXPECT_FALSE(lanes().held);
+}
+
+TEST_F(TimelinePanel, framesAreSelectedMarkedAndZoomedToByKeys) {
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    clicked("Fit");
+    pointAtFrames(0.5f);
+    for (const bool down : {false, true, false}) {
+        PanelWindow::press(down);
+        frame();
+    }
+    ASSERT_TRUE(lanes().frame);
+    const std::uint64_t first = *lanes().frame;
+    ImGui::GetIO().KeyShift = true;
+    key(ImGuiKey_RightArrow);
+    EXPECT_EQ(*lanes().frame, first + 1);
+    EXPECT_FALSE(lanes().marked);
+    key(ImGuiKey_PageDown);
+    key(ImGuiKey_PageDown);
+    ImGui::GetIO().KeyShift = false;
+    EXPECT_EQ(*lanes().frame, first + 3);
+    ASSERT_TRUE(lanes().marked);
+    EXPECT_NEAR(static_cast<double>(lanes().marked->lengthNs()), 3 * frameNs, 0.01 * frameNs);
+    key(ImGuiKey_Enter);
+    EXPECT_NEAR(static_cast<double>(lanes().shown.lengthNs()), 1.1 * frameNs, 0.02 * frameNs);
 }
 
 TEST_F(TimelinePanel, savesTheMarkedRangeAsAChromeTrace) {
