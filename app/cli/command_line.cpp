@@ -100,7 +100,7 @@ void addBake(CLI::App& command, BakeOptions& options) {
     command.add_option("--chunk-size", settings.chunkSize, "Vertices per chunk side: 17, 33, 65 or 129 (33)")
         ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
     command.add_option("--radius", options.radiusM, "Planet radius, metres (the preset's, or 6371000)")
-        ->check(number(1e-3, 1e9));
+        ->check(number(planet::leastRadiusM, planet::mostRadiusM));
     command
         .add_option("--quantum", settings.quantumM,
                     "Quantisation step of stored heights, metres (the source's step)")

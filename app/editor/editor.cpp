@@ -275,7 +275,7 @@ void Editor::meetPlanet(Scene& scene) {
     worldy::meetPlanet(camera_, scene.planet->tree().shape.radiusM);
     forgetPlanet(instruments_);
     frames_.lastScene = scene.identity;
-    frames_.history.clear();
+    frames_.history = {};
     frames_.stepOnce = true;  // the new planet needs a first selection
 }
 
@@ -530,7 +530,7 @@ void Editor::watchAllocations(const Session& session) {
         .timeS = frames_.timeS,
         .targetBytes = gpuBytes(viewport_) + gpuBytes(compare_),
         .logLines = window_.logLines.size(),
-        .frameSamples = frames_.history.size(),
+        .frameSamples = frames_.history.samples.size(),
         .recordedBytes = recording_.recorder ? recording_.recorder->encoded().bytes() : 0,
         .jobs = runningJobs()};
     const bool wanted = isShown(settings_.settings.workspace, PanelId::Frame);

@@ -33,7 +33,7 @@ FrameStep takeStep(FrameController& frames, double secondsSinceLast) {
 ui::FramesView framesViewOf(const FrameController& frames, int frameLimit) {
     const auto& gpuClock = planet::gl::gpuClock();
     return {.stats = frames.stats,
-            .history = frames.history,
+            .history = frames.history.samples,
             .timeS = frames.timeS,
             .paused = frames.paused,
             .drawnBecause = frames.activity.reason,
@@ -46,8 +46,13 @@ ui::FramesView framesViewOf(const FrameController& frames, int frameLimit) {
 
 void finishFrame(FrameController& frames, const FrameStats& stats) {
     frames.stats = smoothed(frames.stats, stats);
-    frames.history.push_back({frames.timeS, stats});
-    while (frames.history.front().timeS < frames.timeS - historyS) frames.history.pop_front();
+    auto& [samples, last] = frames.history;
+    if (last) {
+        last->stats.frameMs = stats.frameMs;
+        samples.push_back(*last);
+    }
+    last = {frames.timeS, stats};
+    while (!samples.empty() && samples.front().timeS < frames.timeS - historyS) samples.pop_front();
 }
 
 }  // namespace worldy

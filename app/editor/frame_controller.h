@@ -16,14 +16,20 @@
 
 namespace worldy {
 
+// The statistics of frames whose time is known, which it is only when the next one begins.
+struct FrameHistory {
+    std::deque<ui::FrameSample> samples;  // of the last 10 s
+    std::optional<ui::FrameSample> last;  // the last frame
+};
+
 struct FrameController {
     bool paused = false;
-    bool fullSpeed = false;               // neither idles nor waits, whatever the preferences say
-    bool stepOnce = false;                // the next frame moves and selects although frames are paused
-    std::uint64_t frame = 0;              // number of frames run
-    double timeS = 0;                     // seconds since the window opened
-    FrameStats stats;                     // smoothed
-    std::deque<ui::FrameSample> history;  // of the last 10 s
+    bool fullSpeed = false;   // neither idles nor waits, whatever the preferences say
+    bool stepOnce = false;    // the next frame moves and selects although frames are paused
+    std::uint64_t frame = 0;  // number of frames run
+    double timeS = 0;         // seconds since the window opened
+    FrameStats stats;         // smoothed
+    FrameHistory history;
     FramePace pace;
     Stopwatch clock{};         // for the frame limit
     FrameActivity activity{};  // of the last frame
@@ -49,7 +55,7 @@ FrameStep takeStep(FrameController& frames, double secondsSinceLast);
 // Returns what panels may read.
 ui::FramesView framesViewOf(const FrameController& frames, int frameLimit);
 
-// Stores the statistics at the end of a frame.
+// Stores the statistics at the end of a frame. stats.frameMs is of the frame before, which it completes in the history.
 void finishFrame(FrameController& frames, const FrameStats& stats);
 
 }  // namespace worldy

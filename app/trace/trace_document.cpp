@@ -245,11 +245,16 @@ void TraceDocument::readHistory(const std::stop_token& stop) {
             const std::lock_guard lock(mutex_);
             grows = grows_;
         }
-        // Refreshed after grows was read: what the engine wrote before it ended is read, too.
         if (grows) {
             if (const auto blocks = file->refresh(); !blocks) return fail(blocks.error().message);
         }
-        const Result<bool> more = file->next(sink);
+        Result<bool> more = file->next(sink);
+        if (more && !*more && !grows) {
+            // Refreshed after grows was read: what the engine wrote before it ended is read, too.
+            if (const auto blocks = file->refresh(); !blocks) return fail(blocks.error().message);
+            if (file->problem()) fail(*file->problem());
+            more = file->next(sink);
+        }
         if (!more) fail(more.error().message);
         const bool isAtEnd = !more || !*more;
         const bool isOver = isAtEnd && (!grows || !more);
@@ -260,16 +265,8 @@ void TraceDocument::readHistory(const std::stop_token& stop) {
                    std::max<Clock::duration>(publishShare * (Clock::now() - begin), leastPublishPause);
             isNew = false;
         }
-        if (!more) return;
+        if (isOver) return;
         if (!isAtEnd) continue;
-        if (!grows) {
-            if (const auto blocks = file->refresh(); !blocks) return fail(blocks.error().message);
-            if (file->problem()) fail(*file->problem());
-            const Result<bool> late = file->next(sink);
-            if (!late) return fail(late.error().message);
-            if (*late) continue;
-            return;
-        }
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, stop, liveHistoryPause, [&] { return !grows_; });
     }

@@ -272,7 +272,7 @@ Result<std::vector<ColourBlock>> colourBlocks(const ChunkFile& file) {
 std::optional<SourceRecord> recordOf(const HeightSource& source, const BakeSettings& settings,
                                      const PlanetShape& shape, const ColourSource* colour) {
     if (!source.parts) return std::nullopt;
-    Result<std::vector<SourcePart>> parts = source.parts();
+    Result<std::vector<SourcePart>> parts = source.parts(std::numbers::pi / 2 / faceCells(shape));
     if (!parts || parts->size() > mostSourceParts) return std::nullopt;
     SourceRecord record;
     record.settings = Fingerprint()

@@ -24,7 +24,7 @@ struct ColourBakeSettings {
 struct BakeSettings {
     std::optional<int> faceSize{};  // samples per side, 2^n + 1; unset: the source's natural size
     int chunkSize = 33;             // vertices per side: 17, 33, 65 or 129
-    double radiusM = earthRadiusM;  // (0, 1e9]
+    double radiusM = earthRadiusM;  // [leastRadiusM, mostRadiusM]
     std::optional<double>
         quantumM{};  // unset: the source's step, or for floats the finest that holds its range
     // The quantum, metres, that heights of finer parts of the source may have at the finest, as a power-of-two fraction of

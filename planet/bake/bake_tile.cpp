@@ -108,8 +108,9 @@ Result<PlanetShape> chooseShape(const HeightSource& source, const BakeSettings& 
             "face size: {} is too large for a source that is equally fine everywhere; expected at most {}",
             face, (1 << maxDenseFaceCellsLog2) + 1));
     }
-    if (!(settings.radiusM > 0 && settings.radiusM <= 1e9)) {
-        return badInput(fmt::format("radius: {} m is out of range; expected (0, 1e9] m", settings.radiusM));
+    if (!(settings.radiusM >= leastRadiusM && settings.radiusM <= mostRadiusM)) {
+        return badInput(fmt::format("radius: {} m is out of range; expected [{}, {:g}] m", settings.radiusM,
+                                    leastRadiusM, mostRadiusM));
     }
     shape.radiusM = settings.radiusM;
     TRY(chooseQuantum(source, settings.quantumM, shape));

@@ -127,7 +127,9 @@ std::string colourRootsProblem(const ChunkFileInfo& info, std::uint64_t fileByte
 
 // Returns an empty text if the shape is within the limits of a bake.
 std::string shapeProblem(const PlanetShape& shape) {
-    if (!(shape.radiusM > 0 && shape.radiusM <= 1e9)) return fmt::format("radius {} m", shape.radiusM);
+    if (!(shape.radiusM >= leastRadiusM && shape.radiusM <= mostRadiusM)) {
+        return fmt::format("radius {} m; expected {} to {:g} m", shape.radiusM, leastRadiusM, mostRadiusM);
+    }
     if (shape.fractionBits > maxFractionBits) {
         return fmt::format("quantum of 2^{} steps; expected at most 2^{}", shape.fractionBits,
                            maxFractionBits);

@@ -133,48 +133,64 @@ double cellRadAt(const glm::dvec3& direction) {
     return 2 * std::max(alongU, alongV) / step;
 }
 
+// Sets the resolution of the area, and of each tile at its middle.
 void setResolution(RasterArea& area) {
-    Lattice middles;
-    for (const RasterMosaic::Tile& tile : area.mosaic.tiles()) {
-        middles.columns.push_back(static_cast<double>(tile.rect.column) +
-                                  static_cast<double>(tile.rect.columns - 1) / 2);
-        middles.rows.push_back(static_cast<double>(tile.rect.row) +
-                               static_cast<double>(tile.rect.rows - 1) / 2);
-    }
-    const std::vector<glm::dvec3> places = middles.directions(area.mosaic.placement());
-    const std::vector<SampleDensity> densities = densitiesAt(area.mosaic.placement(), places);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto [least, most] = std::minmax(densities[i].columnsPerRad, densities[i].rowsPerRad);
+    area.tiles.resize(area.mosaic.tiles().size());
+    for (std::size_t i = 0; i < area.tiles.size(); ++i) {
+        const GridRect& rect = area.mosaic.tiles()[i].rect;
+        Lattice middle;
+        middle.columns.push_back(static_cast<double>(rect.column) +
+                                 static_cast<double>(rect.columns - 1) / 2);
+        middle.rows.push_back(static_cast<double>(rect.row) + static_cast<double>(rect.rows - 1) / 2);
+        const std::vector<glm::dvec3> place = middle.directions(area.mosaic.placement());
+        area.tiles[i].spacingRad = std::numbers::pi;
+        if (place.empty()) continue;
+        const SampleDensity density = densitiesAt(area.mosaic.placement(), place)[0];
+        const auto [least, most] = std::minmax(density.columnsPerRad, density.rowsPerRad);
         if (!std::isfinite(most)) continue;
         area.samplesPerRad = std::max(area.samplesPerRad, most);
         // The axis with fewer samples has the resolution: towards the poles, columns stand closer than rows.
-        area.faceCells = std::max(area.faceCells, powerOfTwoCells(cellRadAt(places[i]) * least));
+        area.faceCells = std::max(area.faceCells, powerOfTwoCells(cellRadAt(place[0]) * least));
+        if (least > 0) area.tiles[i].spacingRad = std::min(1 / least, std::numbers::pi);
     }
 }
 
-// Sets the cap from a lattice over each tile.
-void setCap(RasterArea& area) {
+// Returns a cap of the sphere around places that follow each other in a lattice. Between them, the ground reaches no
+// further beyond a place than to the next one.
+DirectionCone capAround(std::span<const glm::dvec3> places) {
     glm::dvec3 sum{};
-    std::vector<glm::dvec3> places;
-    double marginRad = 0;
-    for (const RasterMosaic::Tile& tile : area.mosaic.tiles()) {
-        const std::int64_t apart =
-            std::max<std::int64_t>(1, std::max(tile.rect.columns, tile.rect.rows) / capPlaces);
-        Lattice lattice;
-        lattice.add(tile.rect, apart);
-        const std::vector<glm::dvec3> ofTile = lattice.directions(area.mosaic.placement());
-        for (const glm::dvec3& place : ofTile) sum += place;
-        places.insert(places.end(), ofTile.begin(), ofTile.end());
-        // Nowhere does a tile reach further beyond a place of the lattice.
-        for (std::size_t i = 1; i < ofTile.size(); ++i)
-            marginRad = std::max(marginRad, std::min(glm::distance(ofTile[i - 1], ofTile[i]), 1.0));
-    }
+    for (const glm::dvec3& place : places) sum += place;
     const double length = glm::length(sum);
     // Places all around the planet have no middle.
-    area.centre = length > 1e-6 * static_cast<double>(places.size()) ? sum / length : glm::dvec3(1, 0, 0);
+    const bool hasMiddle = length > 1e-6 * static_cast<double>(places.size());
+    DirectionCone cap{hasMiddle ? sum / length : glm::dvec3(1, 0, 0), 0};
     double least = 1;
-    for (const glm::dvec3& place : places) least = std::min(least, glm::dot(area.centre, place));
-    area.radiusRad = std::acos(std::clamp(least, -1.0, 1.0)) + marginRad;
+    for (const glm::dvec3& place : places) least = std::min(least, glm::dot(cap.axis, place));
+    cap.halfAngleRad = std::acos(std::clamp(least, -1.0, 1.0));
+    return cap;
+}
+
+// Sets the caps of the tiles and of the area, from a lattice over each tile.
+void setCaps(RasterArea& area) {
+    std::vector<glm::dvec3> places;
+    double mostMarginRad = 0;
+    for (std::size_t tile = 0; tile < area.tiles.size(); ++tile) {
+        const GridRect& rect = area.mosaic.tiles()[tile].rect;
+        Lattice lattice;
+        lattice.add(rect, std::max<std::int64_t>(1, std::max(rect.columns, rect.rows) / capPlaces));
+        const std::vector<glm::dvec3> ofTile = lattice.directions(area.mosaic.placement());
+        double marginRad = 0;
+        for (std::size_t i = 1; i < ofTile.size(); ++i)
+            marginRad = std::max(marginRad, std::min(glm::distance(ofTile[i - 1], ofTile[i]), 1.0));
+        DirectionCone& cap = area.tiles[tile].cap;
+        cap = capAround(ofTile);
+        cap.halfAngleRad = std::min(cap.halfAngleRad + marginRad, std::numbers::pi);
+        mostMarginRad = std::max(mostMarginRad, marginRad);
+        places.insert(places.end(), ofTile.begin(), ofTile.end());
+    }
+    const DirectionCone cap = capAround(places);
+    area.centre = cap.axis;
+    area.radiusRad = cap.halfAngleRad + mostMarginRad;
 }
 
 double commonStepM(const RasterMosaic& mosaic) {
@@ -234,10 +250,10 @@ bool CoveredSquares::meet(const ChunkId& square) const {
 }
 
 AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
-    AreaSurvey survey{{.mosaic = std::move(mosaic), .statistics = {}, .covered = {}}, {}};
+    AreaSurvey survey{{.mosaic = std::move(mosaic), .statistics = {}, .tiles = {}, .covered = {}}, {}};
     RasterArea& area = survey.area;
     setResolution(area);
-    setCap(area);
+    setCaps(area);
     area.covered.level =
         std::clamp(static_cast<int>(std::lround(std::log2(area.faceCells))) - cellSamplesLog2, 0, maxLevel);
     area.stepM = commonStepM(area.mosaic);

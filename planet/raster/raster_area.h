@@ -11,6 +11,7 @@
 #include "planet/base/result.h"
 #include "planet/raster/height_raster.h"
 #include "planet/raster/raster_mosaic.h"
+#include "planet/sphere/bounds.h"
 #include "planet/sphere/chunk_id.h"
 
 namespace planet {
@@ -25,6 +26,15 @@ struct CoveredSquares {
     bool meet(const ChunkId& square) const;
 };
 
+// A projection is expected to stretch a tile by less than this factor from its middle to its edge.
+inline constexpr double mostUneven = 2;
+
+// The ground that a tile of a mosaic covers.
+struct TileExtent {
+    DirectionCone cap;      // holds all its samples
+    double spacingRad = 0;  // between neighbouring samples at its middle, along the axis where it is larger
+};
+
 struct RasterArea {
     RasterMosaic mosaic;
     HeightStatistics statistics;  // of all tiles; missing samples do not count towards the range
@@ -37,6 +47,7 @@ struct RasterArea {
     double samplesPerRad = 0;
     // The smallest power of two of cells along a face that loses no samples, at the middle of any tile.
     int faceCells = 1;
+    std::vector<TileExtent> tiles;  // in the order of the mosaic's tiles
     CoveredSquares covered;
 };
 

@@ -68,6 +68,8 @@ public:
 
     const std::vector<Tile>& tiles() const { return tiles_; }
     const RasterPlacement& placement() const { return placement_; }
+    // The layout of the raster from whose first sample the grid is counted.
+    const RasterLayout& layout() const { return layout_; }
     const GridRect& bounds() const { return bounds_; }  // of all tiles
     // The columns once around the planet, after which the grid repeats; 0: it does not repeat.
     std::int64_t period() const { return period_; }
@@ -103,7 +105,7 @@ private:
                                             std::int64_t blockY) const;
 
     RasterPlacement placement_;
-    RasterLayout layout_;  // of the first raster
+    RasterLayout layout_;
     std::shared_ptr<MosaicCache> cache_;
     int number_ = 0;  // distinguishes the mosaics that share the cache
     std::shared_ptr<std::atomic<std::uint64_t>> samplesRead_ =

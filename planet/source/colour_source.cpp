@@ -59,7 +59,7 @@ Result<ColourSource> openColourSource(const std::filesystem::path& path, std::si
     source.notice = std::ranges::max_element(channels, {}, &HeightSource::seamEdges)->notice;
     source.finestCells = channels[0].finestCells;
     source.signature = [parts = channels[0].parts]() -> Result<std::uint64_t> {
-        TRY_ASSIGN(const auto made, parts());
+        TRY_ASSIGN(const auto made, parts(0));
         Fingerprint hash;
         for (const SourcePart& part : made) hash.add(part.signature);
         return hash.hash();

@@ -108,10 +108,10 @@ bool isGeoreferenced(const std::filesystem::path& file) {
 namespace {
 
 // Returns the one part of an image, cube faces or a terrain text.
-std::function<Result<std::vector<SourcePart>>()> wholeSource(const std::filesystem::path& path,
-                                                             const HeightSourceSettings& settings,
-                                                             const SampleDensities& densities) {
-    return [path, settings = hashOf(settings), densities]() -> Result<std::vector<SourcePart>> {
+std::function<Result<std::vector<SourcePart>>(double)> wholeSource(const std::filesystem::path& path,
+                                                                   const HeightSourceSettings& settings,
+                                                                   const SampleDensities& densities) {
+    return [path, settings = hashOf(settings), densities](double) -> Result<std::vector<SourcePart>> {
         const HeightSourceFiles source = heightSourceFiles(path);
         Fingerprint fingerprint;
         // Files count by their content; without any, the path is the text of a terrain.

@@ -235,8 +235,11 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
                                        .hash();
         // The relief of a place is that of the samples around its cell of the source's own grid.
         const double reachRad = 8.0 / shared->cells;
-        result.parts = [of = source.parts, hash, reachRad]() -> Result<std::vector<SourcePart>> {
-            TRY_ASSIGN(auto parts, of());
+        // The source is sampled on that grid too.
+        const double ownSpacingRad = std::numbers::pi / 2 / shared->cells;
+        result.parts = [of = source.parts, hash, reachRad,
+                        ownSpacingRad](double filterSpacingRad) -> Result<std::vector<SourcePart>> {
+            TRY_ASSIGN(auto parts, of(std::max(filterSpacingRad, ownSpacingRad)));
             for (SourcePart& part : parts)
                 part.radiusRad = std::min(part.radiusRad + reachRad, std::numbers::pi);
             parts.push_back(wholePlanet(hash, {}));

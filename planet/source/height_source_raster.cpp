@@ -233,12 +233,11 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         Rasters{std::move(areas), std::min(statistics.minM, fillM), std::max(statistics.maxM, fillM), fillM});
     source.minM = static_cast<double>(shared->minM);
     source.maxM = static_cast<double>(shared->maxM);
-    source.parts = [shared, hash = hashOf(settings)]() -> Result<std::vector<SourcePart>> {
+    source.parts = [shared,
+                    hash = hashOf(settings)](double filterSpacingRad) -> Result<std::vector<SourcePart>> {
         std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(shared->fillM).hash(), {0, 0})};
-        for (const RasterArea& area : shared->areas) {
-            TRY_ASSIGN(const auto part, partOf(area, hash));
-            parts.push_back(part);
-        }
+        for (const RasterArea& area : shared->areas)
+            TRY(appendParts(area, hash, {.filterSpacingRad = filterSpacingRad}, parts));
         return parts;
     };
     auto layers = std::make_shared<SourceLayers>(*singleLayer(

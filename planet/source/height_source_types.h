@@ -72,9 +72,9 @@ struct HeightSource {
     // A source of one part sets these: beyond them, a finer filter changes nothing.
     SampleDensities densities{};
     // Returns what the heights depend on, in the order in which it is joined: the heights of a place depend only on
-    // the parts whose caps hold it and on the grid of the filter; they are clamped to [minM, maxM]. Reads the
-    // files. Null: unknown. The Error names a file that cannot be read.
-    std::function<Result<std::vector<SourcePart>>()> parts{};
+    // the parts whose caps hold it and on the grid of the filter, of this spacing; they are clamped to [minM, maxM].
+    // Reads the files. Null: unknown. The Error names a file that cannot be read.
+    std::function<Result<std::vector<SourcePart>>(double filterSpacingRad)> parts{};
 
     // Returns the smallest power of two of cells along a face that loses no data under this square of its
     // face, [1, 2^maxFaceCellsLog2]. A child never says more than its parent. Null: naturalFaceSize - 1 everywhere. Several

@@ -113,8 +113,6 @@ void keepPlacesOnTiles(const RasterMosaic& mosaic, PlacesOnGrid& places) {
 // than the mosaic everywhere.
 std::vector<SampleDensity> densitiesFor(const RasterArea& area, const PiecePlaces& places,
                                         std::span<const std::size_t> wanted) {
-    // A projection is expected to stretch a tile by less than this factor from its middle to its edge.
-    constexpr double mostUneven = 2;
     if (places.spacingRad * area.samplesPerRad * mostUneven <= 1) return {};
     const RasterPlacement& placement = area.mosaic.placement();
     const double around = placement.columnsAround();

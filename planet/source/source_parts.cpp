@@ -58,14 +58,27 @@ std::uint64_t Fingerprint::hash() const {
 }
 
 Result<std::uint64_t> hashOfFiles(const std::vector<std::filesystem::path>& files) {
+    TRY_ASSIGN(const auto hashes, hashesOfFiles({files}));
+    return hashes[0];
+}
+
+Result<std::vector<std::uint64_t>> hashesOfFiles(
+    const std::vector<std::vector<std::filesystem::path>>& lists) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& list : lists) files.insert(files.end(), list.begin(), list.end());
     std::vector<Result<std::uint64_t>> hashes(files.size());
     parallelFor(files.size(), [&](std::size_t i) { hashes[i] = hashOfFile(files[i]); });
-    Fingerprint fingerprint;
-    for (const Result<std::uint64_t>& hash : hashes) {
-        TRY_ASSIGN(const auto known, hash);
-        fingerprint.add(known);
+    std::vector<std::uint64_t> ofLists;
+    std::size_t next = 0;
+    for (const auto& list : lists) {
+        Fingerprint fingerprint;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            TRY_ASSIGN(const auto hash, hashes[next++]);
+            fingerprint.add(hash);
+        }
+        ofLists.push_back(fingerprint.hash());
     }
-    return fingerprint.hash();
+    return ofLists;
 }
 
 std::uint64_t hashOf(const HeightSourceSettings& settings) {

@@ -36,6 +36,9 @@ private:
 
 // Returns a hash of files. The Error names a file that cannot be read.
 Result<std::uint64_t> hashOfFiles(const std::vector<std::filesystem::path>& files);
+// Returns a hash of each list of files, all of which are read in parallel.
+Result<std::vector<std::uint64_t>> hashesOfFiles(
+    const std::vector<std::vector<std::filesystem::path>>& lists);
 
 // Returns a hash of the settings that heights depend on.
 std::uint64_t hashOf(const HeightSourceSettings& settings);

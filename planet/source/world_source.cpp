@@ -326,15 +326,16 @@ std::uint64_t hashOf(const WorldLayer& layer, const std::optional<VerticalDatum>
     return hash.hash();
 }
 
-Result<std::vector<SourcePart>> partsOf(const World& world) {
+Result<std::vector<SourcePart>> partsOf(const World& world, double filterSpacingRad) {
     std::vector<SourcePart> parts{wholePlanet(Fingerprint().add(world.fillM).hash(), {0, 0})};
     for (const WorldPart& part : world.parts) {
         if (const auto* const rasters = std::get_if<std::unique_ptr<RasterPart>>(&part.content)) {
-            TRY_ASSIGN(const auto made, partOf((*rasters)->area, part.settings));
-            parts.push_back(made);
+            const RasterReach reach{filterSpacingRad, (*rasters)->rim ? (*rasters)->rim->reachRad() : 0,
+                                    part.layer.voids == LayerVoids::Fill};
+            TRY(appendParts((*rasters)->area, part.settings, reach, parts));
             continue;
         }
-        TRY_ASSIGN(auto inner, std::get<HeightSource>(part.content).parts());
+        TRY_ASSIGN(auto inner, std::get<HeightSource>(part.content).parts(filterSpacingRad));
         for (SourcePart& each : inner) {
             each.signature = Fingerprint().add(part.settings).add(each.signature).hash();
             parts.push_back(each);
@@ -398,7 +399,7 @@ public:
         source.sampleCount = extent_.sampleCount;
         source.missingCount = extent_.missingCount;
         const std::shared_ptr<const World> world = std::move(world_);
-        source.parts = [world] { return partsOf(*world); };
+        source.parts = [world](double filterSpacingRad) { return partsOf(*world, filterSpacingRad); };
         source.finestCells = [world](const ChunkId& square) { return finestCellsIn(*world, square); };
         source.reads = [world] { return readsOf(*world); };
         source.sample = [world](const SampleTile& tile, std::span<float> out) {

@@ -25,6 +25,9 @@ constexpr int powerOfTwoCells(double count) {
 }
 
 inline constexpr double earthRadiusM = 6'371'000;  // mean
+// The radii that a planet may have.
+inline constexpr double leastRadiusM = 1e-3;
+inline constexpr double mostRadiusM = 1e9;
 
 // A file has a quantum. Where its sources are finer, heights are multiples of a power-of-two fraction of it. All steps
 // count in the finest of these fractions, 2^-fractionBits of the file's quantum.
@@ -33,7 +36,7 @@ inline constexpr int maxFractionBits = 12;
 inline constexpr std::int32_t farthestStep = (1 << 23) - 1;
 
 struct PlanetShape {
-    double radiusM = earthRadiusM;  // of height 0; (0, 1e9]
+    double radiusM = earthRadiusM;  // of height 0; [leastRadiusM, mostRadiusM]
     double quantumM = 1;            // metres per step, the file's finest; > 0
     double baseHeightM = 0;         // height of stored step 0
     int faceCellsLog2 = 11;         // log2 of a face's cells per side; [chunkCellsLog2, maxFaceCellsLog2]

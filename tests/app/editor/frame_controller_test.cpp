@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace worldy {
 namespace {
 
@@ -26,8 +28,25 @@ TEST(FrameController, tenSecondsOfFramesAreKept) {
         frames.timeS = i;
         finishFrame(frames, {});
     }
-    EXPECT_EQ(frames.history.front().timeS, 20);
-    EXPECT_EQ(frames.history.size(), 11u);
+    EXPECT_EQ(frames.history.samples.front().timeS, 20);
+    EXPECT_EQ(frames.history.samples.size(), 10u) << "the last frame has no time yet";
+}
+
+TEST(FrameController, aFramesTimeStandsBesideItsParts) {
+    FrameController frames;
+    // The second frame takes 50 ms, of which drawing takes 40 ms. Its time is known when the third one begins.
+    for (const auto& [frameMs, drawCpuMs] :
+         {std::pair(0.0, 2.0), std::pair(16.0, 40.0), std::pair(50.0, 3.0)}) {
+        FrameStats stats;
+        stats.frameMs = frameMs;
+        stats.drawCpuMs = drawCpuMs;
+        finishFrame(frames, stats);
+    }
+    ASSERT_EQ(frames.history.samples.size(), 2u);
+    EXPECT_EQ(frames.history.samples[0].stats.frameMs, 16);
+    EXPECT_EQ(frames.history.samples[0].stats.drawCpuMs, 2);
+    EXPECT_EQ(frames.history.samples[1].stats.frameMs, 50);
+    EXPECT_EQ(frames.history.samples[1].stats.drawCpuMs, 40);
 }
 
 }  // namespace

@@ -152,6 +152,37 @@ TEST_P(ReuseBake, bakesOnlyWhereTheFileOfALayerChanges) {
     EXPECT_LT(reused->sampledCells, whole->sampledCells / 3);
 }
 
+TEST_P(ReuseBake, bakesOnlyWhereATileOfAMosaicChanges) {
+    const auto writeTile = [&](int tile, double height) {
+        auto grid = gridAround(4326, 10, 30, 301, 301, 0.01);
+        grid.x += tile % 3 * 100 * grid.step;
+        grid.y -= tile / 3 * 100 * grid.step;
+        grid.width = grid.height = 101;
+        std::filesystem::create_directories(folder / "tiles");
+        writeRaster(folder / "tiles" / fmt::format("{}.tif", tile), grid, [=](double x, double y) {
+            return std::round(height * (0.5 + 0.5 * std::sin(40 * x) * std::cos(37 * y)));
+        });
+    };
+    for (int tile = 0; tile < 9; ++tile) writeTile(tile, 900);
+    const std::string mosaic =
+        std::string(base) + "[[elevation]]\nfiles = \"tiles/*.tif\"\nfeather_m = 4000\n";
+    const auto rebaked = [&] {
+        BakeSettings later = settings();
+        const auto whole = bakeWorld(mosaic, "whole.chk", later);
+        later.reuse = folder / "old.chk";
+        const auto reused = bakeWorld(mosaic, "reused.chk", later);
+        EXPECT_TRUE(whole && reused);
+        EXPECT_TRUE(contentOf(folder / "whole.chk") == contentOf(folder / "reused.chk"));
+        EXPECT_GT(reused->sampledCells, 0u);
+        EXPECT_LT(reused->sampledCells, whole->sampledCells / 3);
+    };
+    ASSERT_TRUE(bakeWorld(mosaic, "old.chk", settings()));
+    writeTile(0, 850);
+    rebaked();
+    std::filesystem::remove(folder / "tiles" / "0.tif");
+    rebaked();
+}
+
 TEST_P(ReuseBake, bakesOnlyWhereReorderedLayersLie) {
     writeRaster(folder / "mesa.tif", gridAround(4326, 10.4, 45.2, 151, 151, 0.01),
                 [](double, double) { return 600; });

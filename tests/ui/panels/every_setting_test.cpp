@@ -68,7 +68,7 @@ TEST(PanelSettings, everyViewSettingHasAControl) {
                     .frames = {.stats = stats, .history = history},
                     .log = log,
                     .instruments = {.changes = changes}};
-    view.camera.lodView = lodView;
+    view.camera.lodView = view.camera.renderView = lodView;
     view.compare.on = true;
     PanelWindow window({700, 4000});
     PanelStates states;

@@ -202,9 +202,7 @@ bool radiusControl(const BakeRequest& current, BakeRequest& request) {
 bool quantumControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
         "Height in metres of one of the file's 65536 quantisation steps. Automatic: the source's own step, "
-        "or for floating-point sources the smallest step that covers the range, with finer steps where a "
-        "part of "
-        "the source needs them. Set: the step of the whole file. Larger: a smaller file, but "
+        "or for floating-point sources the smallest step that covers the range. Larger: a smaller file, but "
         "terraces on flat ground. Too small: the heights do not fit, and the bake stops with an error.";
     std::optional<double>& quantum = request.settings.quantumM;
     bakeControl("Quantum", quantum != current.settings.quantumM, explanation);
@@ -221,6 +219,35 @@ bool quantumControl(const BakeRequest& current, BakeRequest& request) {
     double metres = *quantum;
     if (numberField("##quantum", metres, "%g m")) {
         quantum = std::clamp(metres, 1e-6, 1e6);
+        changed = true;
+    }
+    tooltip(explanation);
+    return changed;
+}
+
+bool finestQuantumControl(const BakeRequest& current, BakeRequest& request) {
+    constexpr const char* explanation =
+        "Limit of the quantum where a part of the source needs finer steps than the file's quantum, as "
+        "centimetre lidar in a coarse planet does. Steps are power-of-two fractions of the file's quantum. "
+        "Automatic: as fine as the source needs, or only the file's quantum if that is set. Finer: more "
+        "bytes "
+        "there.";
+    std::optional<double>& finest = request.settings.finestQuantumM;
+    bakeControl("Finest quantum", finest != current.settings.finestQuantumM, explanation);
+    bool automatic = !finest;
+    bool changed = ImGui::Checkbox("automatic##finest", &automatic);
+    tooltip(explanation);
+    if (changed) {
+        const double proposedM = request.settings.quantumM.value_or(1) / 64;
+        finest =
+            automatic ? std::nullopt : std::optional(current.settings.finestQuantumM.value_or(proposedM));
+    }
+    if (!finest) return changed;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    double metres = *finest;
+    if (numberField("##finest_quantum", metres, "%g m")) {
+        finest = std::clamp(metres, 1e-6, 1e6);
         changed = true;
     }
     tooltip(explanation);
@@ -264,6 +291,7 @@ void requestSection(const EditorView& view, BakePanelState& state, Commands& com
     changed |= faceSizeControl(view.bake.current, request);
     changed |= radiusControl(view.bake.current, request);
     changed |= quantumControl(view.bake.current, request);
+    changed |= finestQuantumControl(view.bake.current, request);
     changed |= colourControls(view, state.colour, request, commands);
     changed |= effortControls(view, request);
     endGrey();
