@@ -155,8 +155,7 @@ void setResolution(RasterArea& area) {
     }
 }
 
-// Returns a cap of the sphere around places that follow each other in a lattice. Between them, the ground reaches no
-// further beyond a place than to the next one.
+// Returns a cap of the sphere that holds places.
 DirectionCone capAround(std::span<const glm::dvec3> places) {
     glm::dvec3 sum{};
     for (const glm::dvec3& place : places) sum += place;
@@ -176,12 +175,13 @@ void setCaps(RasterArea& area) {
     double mostMarginRad = 0;
     for (std::size_t tile = 0; tile < area.tiles.size(); ++tile) {
         const GridRect& rect = area.mosaic.tiles()[tile].rect;
+        const std::int64_t apart = std::max<std::int64_t>(1, std::max(rect.columns, rect.rows) / capPlaces);
         Lattice lattice;
-        lattice.add(rect, std::max<std::int64_t>(1, std::max(rect.columns, rect.rows) / capPlaces));
+        lattice.add(rect, apart);
         const std::vector<glm::dvec3> ofTile = lattice.directions(area.mosaic.placement());
-        double marginRad = 0;
-        for (std::size_t i = 1; i < ofTile.size(); ++i)
-            marginRad = std::max(marginRad, std::min(glm::distance(ofTile[i - 1], ofTile[i]), 1.0));
+        // Nowhere does a tile reach further beyond a place of the lattice.
+        const double marginRad =
+            std::min(static_cast<double>(apart) * mostUneven * area.tiles[tile].spacingRad, 1.0);
         DirectionCone& cap = area.tiles[tile].cap;
         cap = capAround(ofTile);
         cap.halfAngleRad = std::min(cap.halfAngleRad + marginRad, std::numbers::pi);

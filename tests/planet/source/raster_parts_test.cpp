@@ -159,7 +159,7 @@ TEST_P(RasterParts, aTileThatIsRemovedIsOnePart) {
 }
 
 TEST_P(RasterParts, aBlendAtTheRimReachesFurther) {
-    for (const char* const feather : {"feather_m = 20000\n", "feather_m = 60000\n"}) {
+    for (const char* const feather : {"feather_m = 20000\n", "feather_m = 100000\n"}) {
         writeTile(0, 0);
         expectOnlyInside(feather, 2048, [&] { writeTile(0, -1); });
         EXPECT_EQ(partsChanged_, 2u);

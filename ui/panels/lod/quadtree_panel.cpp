@@ -221,7 +221,7 @@ void netKeys(const EditorView& view, const NetData& data, const Rect& area, Quad
     const std::optional<planet::ChunkId>& selected = view.focus.selected;
     const planet::FacePoint below = planet::facePointFromDirection(glm::normalize(data.eyeM));
     if (const auto to = steppedChunk(selected, keys, below, deepestLevelOf(data.tree.shape))) {
-        commands.emplace_back(SelectChunk{*to});
+        commands.emplace_back(SelectChunk{to});
         const NetSquare square = netSquare(*to);
         const NetPoint low = onScreen(placementOf(netSize, state.focus, area), {square.x, square.y});
         const double sidePx = square.side * placementOf(netSize, state.focus, area).scalePx;

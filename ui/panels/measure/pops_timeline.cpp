@@ -251,7 +251,7 @@ std::optional<PopKey> popTimeline(const planet::PopMeter& meter, float lines,
                    [&](std::size_t row) -> const planet::PopEvent& { return events[row]; }, popFields()));
     if (const auto at = placeOf(meter, selected); at && plotHasKeyboard()) {
         const planet::PopEvent& event = events[*at];
-        tellAt(plot, meter, &event, plot.x(event.timeS), {.at = *at});
+        tellAt(plot, meter, &event, plot.x(event.timeS), {.at = at});
     }
     if (!hovered) return reached;
     const float x = ImGui::GetIO().MousePos.x;
