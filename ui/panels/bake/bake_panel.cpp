@@ -199,6 +199,18 @@ bool radiusControl(const BakeRequest& current, BakeRequest& request) {
     return changed;
 }
 
+// Draws the number of a quantum that is set, beside its checkbox.
+bool quantumField(const char* id, const char* explanation, std::optional<double>& quantumM) {
+    if (!quantumM) return false;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    double metres = *quantumM;
+    const bool changed = numberField(id, metres, "%g m");
+    tooltip(explanation);
+    if (changed) quantumM = std::clamp(metres, 1e-6, 1e6);
+    return changed;
+}
+
 bool quantumControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
         "Height in metres of one of the file's 65536 quantisation steps. Automatic: the source's own step, "
@@ -207,22 +219,13 @@ bool quantumControl(const BakeRequest& current, BakeRequest& request) {
     std::optional<double>& quantum = request.settings.quantumM;
     bakeControl("Quantum", quantum != current.settings.quantumM, explanation);
     bool automatic = !quantum;
-    bool changed = ImGui::Checkbox("automatic", &automatic);
+    const bool changed = ImGui::Checkbox("automatic", &automatic);
     tooltip(explanation);
     if (changed) {
         quantum = automatic ? std::nullopt : std::optional(current.settings.quantumM.value_or(1));
         request.settings.finestQuantumM.reset();
     }
-    if (!quantum) return changed;
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
-    double metres = *quantum;
-    if (numberField("##quantum", metres, "%g m")) {
-        quantum = std::clamp(metres, 1e-6, 1e6);
-        changed = true;
-    }
-    tooltip(explanation);
-    return changed;
+    return quantumField("##quantum", explanation, quantum) || changed;
 }
 
 bool finestQuantumControl(const BakeRequest& current, BakeRequest& request) {
@@ -235,23 +238,14 @@ bool finestQuantumControl(const BakeRequest& current, BakeRequest& request) {
     std::optional<double>& finest = request.settings.finestQuantumM;
     bakeControl("Finest quantum", finest != current.settings.finestQuantumM, explanation);
     bool automatic = !finest;
-    bool changed = ImGui::Checkbox("automatic##finest", &automatic);
+    const bool changed = ImGui::Checkbox("automatic##finest", &automatic);
     tooltip(explanation);
     if (changed) {
         const double proposedM = request.settings.quantumM.value_or(1) / 64;
         finest =
             automatic ? std::nullopt : std::optional(current.settings.finestQuantumM.value_or(proposedM));
     }
-    if (!finest) return changed;
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
-    double metres = *finest;
-    if (numberField("##finest_quantum", metres, "%g m")) {
-        finest = std::clamp(metres, 1e-6, 1e6);
-        changed = true;
-    }
-    tooltip(explanation);
-    return changed;
+    return quantumField("##finest_quantum", explanation, finest) || changed;
 }
 
 bool effortControls(const EditorView& view, BakeRequest& request) {
