@@ -368,7 +368,7 @@ void Editor::drawPictures(Scene& scene) {
                           isShown(settings_.settings.workspace, PanelId::Compare);
     drawCompared(compare_, viewport_, settings, chunks_.focus, counting && !scene.drawn.standIn,
                  notices_.log);
-    drawObserverPicture(viewport_, input, instruments_.errors, notices_.log);
+    drawObserverPicture(viewport_, input, instruments_, notices_.log);
 }
 
 // Returns what can make the next frame differ from the one just drawn, apart from input.

@@ -64,6 +64,7 @@ struct InstrumentHandler {
     }
     void operator()(const ui::SwapRulerEnds&) const { swapRulerEnds(instruments.ruler); }
     void operator()(const ui::ClearRuler&) const { clearRuler(instruments.ruler); }
+    void operator()(const ui::HoverProfile& command) const { instruments.ruler.pointed = command.point; }
     void operator()(const ui::MeasureErrors&) const { instruments.errors.wanted = true; }
     void operator()(const ui::KeepMeasuringErrors& command) const {
         instruments.errors.keepMeasuring = command.on;
@@ -130,6 +131,7 @@ void advanceInstruments(InstrumentsController& instruments, const DrawnFrame& dr
     const CrackSettings& cracks = drawn.settings.view.cracks;
     if (cracks.live && drawn.frame % static_cast<std::uint64_t>(cracks.everyFrames) == 0)
         commands.emplace_back(ui::MeasureCracks{});
+    instruments.ruler.pointed.reset();
     measureCosts(drawn.scene, instruments.costs);
     probe(drawn, instruments.probe);
     watchCosts(drawn, instruments.costs, log);

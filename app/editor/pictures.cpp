@@ -28,6 +28,11 @@ void appendOutlines(const PictureInput& input, PictureContent& content) {
     content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());
 }
 
+void appendRuler(const Ruler& ruler, const Scene& scene, PictureContent& content) {
+    const planet::Lines lines = rulerLines(ruler, content.view, scene.planet->tree().shape.radiusM);
+    content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());
+}
+
 }  // namespace
 
 void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsController& instruments,
@@ -47,14 +52,12 @@ void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsC
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
     content.frontLines = focusLines(scene.planet->tree(), input.focus, content.view);
     appendOutlines(input, content);
-    const planet::Lines ruler =
-        rulerLines(instruments.ruler, content.view, scene.planet->tree().shape.radiusM);
-    content.frontLines.insert(content.frontLines.end(), ruler.begin(), ruler.end());
+    appendRuler(instruments.ruler, scene, content);
     drawPicture(viewport, viewport.main, scene, settings, content, log);
 }
 
-void drawObserverPicture(Viewport& viewport, const PictureInput& input, const ErrorMeter& errors,
-                         const Log& log) {
+void drawObserverPicture(Viewport& viewport, const PictureInput& input,
+                         const InstrumentsController& instruments, const Log& log) {
     if (!viewport.observer.shown()) return;
     Scene& scene = input.scene;
     const ViewSettings& settings = input.settings;
@@ -62,7 +65,8 @@ void drawObserverPicture(Viewport& viewport, const PictureInput& input, const Er
     content.view = observerView(input.camera, viewport, settings.camera);
     content.selection = observerSelection(scene, viewport, settings.camera);
     const planet::Selection& shown = scene.planet->selection(content.selection);
-    const std::vector<planet::gl::ChunkTint> tints = tintsOf(scene, shown, settings, input.tints, errors);
+    const std::vector<planet::gl::ChunkTint> tints =
+        tintsOf(scene, shown, settings, input.tints, instruments.errors);
     content.tints = tints;
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
     content.frontLines =
@@ -70,6 +74,7 @@ void drawObserverPicture(Viewport& viewport, const PictureInput& input, const Er
     const planet::Lines focus = focusLines(scene.planet->tree(), input.focus, content.view);
     content.frontLines.insert(content.frontLines.end(), focus.begin(), focus.end());
     appendOutlines(input, content);
+    appendRuler(instruments.ruler, scene, content);
     drawPicture(viewport, viewport.observer, scene, settings, content, log);
 }
 

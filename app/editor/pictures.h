@@ -24,7 +24,7 @@ struct PictureInput {
 // without the fill light, like B.
 void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsController& instruments,
                      bool comparing, const Log& log);
-void drawObserverPicture(Viewport& viewport, const PictureInput& input, const ErrorMeter& errors,
-                         const Log& log);
+void drawObserverPicture(Viewport& viewport, const PictureInput& input,
+                         const InstrumentsController& instruments, const Log& log);
 
 }  // namespace worldy

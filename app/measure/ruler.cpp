@@ -17,6 +17,7 @@ namespace {
 constexpr int profilePoints = 513;
 constexpr double leastIntervalS = 0.5;
 constexpr planet::LineColour rulerColour{255, 196, 64, 255};
+constexpr planet::LineColour pointedColour{255, 255, 255, 255};
 
 planet::ProfileGround groundOf(const planet::Planet& planet) {
     const planet::ViewInput& input = planet.views()[0].input;
@@ -127,11 +128,22 @@ planet::Lines rulerLines(const Ruler& ruler, const planet::View& view, double ra
     }
     if (ruler.ends.size() < 2 || !ruler.last) return lines;
     constexpr double abovePx = 2;
+    const auto over = [&](const planet::ProfilePoint& point) {
+        const double heightM = std::max(point.finestM, point.drawnM.value_or(point.finestM));
+        return point.direction * (radiusM + heightM);
+    };
     const std::vector<planet::ProfilePoint>& points = ruler.last->profile.points;
     for (std::size_t i = 1; i < points.size(); ++i) {
-        for (const planet::ProfilePoint* point : {&points[i - 1], &points[i]}) {
-            const double heightM = std::max(point->finestM, point->drawnM.value_or(point->finestM));
-            lines.push_back({lifted(point->direction * (radiusM + heightM), abovePx), rulerColour});
+        for (const planet::ProfilePoint* point : {&points[i - 1], &points[i]})
+            lines.push_back({lifted(over(*point), abovePx), rulerColour});
+    }
+    if (ruler.pointed && *ruler.pointed < points.size()) {
+        const glm::dvec3 groundM = over(points[*ruler.pointed]);
+        constexpr double armPx = 7;
+        const double armM = armPx * pixelRad * glm::distance(view.eyeM, groundM);
+        for (const glm::dvec3& arm : {armM * view.right, armM * view.up}) {
+            lines.push_back({lifted(groundM, abovePx) - arm, pointedColour});
+            lines.push_back({lifted(groundM, abovePx) + arm, pointedColour});
         }
     }
     return lines;

@@ -37,7 +37,8 @@ struct Ruler {
     std::optional<MeasuredGround> last{};
     bool current = false;  // last is of these ends and of the chunks of the last frame
     double startedAtS = 0;
-    std::string problem{};  // why the ground cannot be measured
+    std::string problem{};                 // why the ground cannot be measured
+    std::optional<std::size_t> pointed{};  // the point of the profile that the pictures of this frame mark
 };
 
 // Places the first end, then the second one; after both, begins again with the first.
@@ -62,7 +63,8 @@ struct RulerEndInPicture {
 };
 RulerEndInPicture rulerEndIn(const planet::View& view, const glm::dvec3& endM);
 
-// Returns the ruler's line over the finest ground, as far as it is measured, and a post at each end.
+// Returns the ruler's line over the finest ground, as far as it is measured, a post at each end, and a cross at the pointed
+// point of the profile.
 planet::Lines rulerLines(const Ruler& ruler, const planet::View& view, double radiusM);
 
 }  // namespace worldy

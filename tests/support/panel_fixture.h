@@ -85,10 +85,10 @@ private:
     std::vector<ItemPlace> items_;
 };
 
-// Adds what a frame asked for, but for lighting up the chunk that the pointer rests on.
+// Adds what a frame asked for, except for marking the chunk or the place that the pointer rests on.
 inline void addAsked(Commands frame, Commands& all) {
     for (Command& command : frame) {
-        if (!command.as<HoverChunk>()) all.push_back(std::move(command));
+        if (!command.as<HoverChunk>() && !command.as<HoverProfile>()) all.push_back(std::move(command));
     }
 }
 

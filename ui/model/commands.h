@@ -238,10 +238,13 @@ struct PlaceRulerEnd {
 };
 struct SwapRulerEnds {};
 struct ClearRuler {};
+struct HoverProfile {       // in this frame: the pictures mark the place between the ruler's ends
+    std::size_t point = 0;  // of the measured profile
+};
 using InstrumentCommand =
-    std::variant<TakeRulerClicks, PlaceRulerEnd, SwapRulerEnds, ClearRuler, MarkAllocations, TryCostlyParts,
-                 MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops, GoBackToPop,
-                 ShowPopSide, MeasureErrors, KeepMeasuringErrors>;
+    std::variant<TakeRulerClicks, PlaceRulerEnd, SwapRulerEnds, ClearRuler, HoverProfile, MarkAllocations,
+                 TryCostlyParts, MeasureCracks, MeasureCosts, FindSmallestSkirts, MeasurePops, ClearPops,
+                 GoBackToPop, ShowPopSide, MeasureErrors, KeepMeasuringErrors>;
 
 // Recorded flights.
 struct StartRecording {  // resets the planet; no name: the next free one

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "app/scene/camera_control.h"
 #include "planet/bake/bake.h"
 #include "tests/support/sudden_lod.h"
 #include "tests/support/synthetic_source.h"
@@ -166,6 +167,30 @@ TEST_F(RulerTest, itsPlacesAreKeptForTheNextStart) {
     ASSERT_EQ(next.ends.size(), 2u);
     EXPECT_LT(glm::distance(next.ends[0], a_), 1e-4);
     EXPECT_LT(glm::distance(next.ends[1], raisedM), 1e-4);
+}
+
+TEST_F(RulerTest, crossMarksThePointedPlaceOfTheProfileAlone) {
+    placeRulerEnd(ruler_, a_);
+    placeRulerEnd(ruler_, b_);
+    ruler_.pointed = 256;
+    EXPECT_EQ(rulerLines(ruler_, view_, 100'000).size(), 4u) << "a cross without a profile";
+    runUntilDone();
+    const planet::Lines marked = rulerLines(ruler_, view_, 100'000);
+    const glm::dvec3 place = ruler_.last->profile.points[256].direction;
+    ruler_.pointed.reset();
+    const planet::Lines plain = rulerLines(ruler_, view_, 100'000);
+    ASSERT_EQ(marked.size(), plain.size() + 4);
+    const planet::Lines cross(marked.end() - 4, marked.end());
+    const auto atPx = [&](std::size_t i) { return pixelOf(view_, cross[i].positionM).value(); };
+    EXPECT_NEAR(atPx(0).y, atPx(1).y, 1e-3);
+    EXPECT_NEAR(atPx(1).x - atPx(0).x, 14, 3);
+    EXPECT_NEAR(atPx(2).x, atPx(3).x, 1e-3);
+    EXPECT_NEAR(atPx(2).y - atPx(3).y, 14, 3);
+    const glm::dvec3 middle = (cross[0].positionM + cross[1].positionM) / 2.0;
+    EXPECT_LT(glm::distance(glm::normalize(middle), place), 1e-9);
+    ruler_.pointed = 513;
+    EXPECT_EQ(rulerLines(ruler_, view_, 100'000).size(), plain.size())
+        << "a point that the profile does not have";
 }
 
 // A camera at the centre of the world looks along -z; a point 1000 m ahead and 10 m right of the axis.

@@ -193,7 +193,8 @@ TEST_F(FractionBake, sharedVerticesAreBitIdenticalEverywhere) {
 // Returns the bytes of the blocks of some levels: [first, last].
 double bytesOfLevels(const ChunkFile& file, int first, int last) {
     double bytes = 0;
-    for (const LevelReport& level : reportFile(file).value().levels) {
+    const FileReport report = reportFile(file).value();
+    for (const LevelReport& level : report.levels) {
         if (level.level >= first && level.level <= last) bytes += static_cast<double>(level.bytes);
     }
     return bytes;

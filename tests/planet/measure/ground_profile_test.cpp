@@ -49,7 +49,7 @@ double pickedM(const ChunkTree& tree, const Selection& selection, const glm::dve
 TEST(GroundProfile, drawnAndFinestAreWhatRaysHit) {
     const ChunkTree coarse = residentTree(fakePyramid(), 2);
     const Selection drawn = select(coarse, lookingDown(), withoutCulling(1e-6));
-    const Selection finest = select(wholeTree(), lookingDown(), withoutCulling(0));
+    const Selection finest = select(wholeTree(), lookingDown(), withoutCulling(1e-6));
     const GroundProfile profile = measured(profileGroundOf(coarse, drawn.draw, lookingDown(), false));
     double mostApartM = 0;
     for (const ProfilePoint& point : profile.points) {
@@ -63,7 +63,7 @@ TEST(GroundProfile, drawnAndFinestAreWhatRaysHit) {
 }
 
 TEST(GroundProfile, hasNoErrorWhereTheFinestChunksAreDrawn) {
-    const Selection all = select(wholeTree(), lookingDown(), withoutCulling(0));
+    const Selection all = select(wholeTree(), lookingDown(), withoutCulling(1e-6));
     const ProfileSummary summary =
         summaryOf(measured(profileGroundOf(wholeTree(), all.draw, lookingDown(), false)));
     EXPECT_EQ(summary.drawn, 301u);
@@ -73,7 +73,7 @@ TEST(GroundProfile, hasNoErrorWhereTheFinestChunksAreDrawn) {
 TEST(GroundProfile, whereNothingIsDrawnTheFinestDataAreReadFromTheRoots) {
     const ChunkTree coarse = residentTree(fakePyramid(), 1);
     const GroundProfile without = measured(profileGroundOf(coarse, {}, lookingDown(), false));
-    const Selection drawn = select(coarse, lookingDown(), withoutCulling(0));
+    const Selection drawn = select(coarse, lookingDown(), withoutCulling(1e-6));
     const GroundProfile with = measured(profileGroundOf(coarse, drawn.draw, lookingDown(), false));
     ASSERT_EQ(without.points.size(), with.points.size());
     for (std::size_t i = 0; i < with.points.size(); ++i) {

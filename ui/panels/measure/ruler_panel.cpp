@@ -54,7 +54,9 @@ void rulerPanel(const EditorView& view, Commands& commands) {
                 : "Measuring the ground...",
             palette().dim);
     }
-    if (ruler.measured) rulerProfile(ruler.measured->profile, ruler.measured->summary, 9);
+    if (!ruler.measured) return;
+    if (const auto point = rulerProfile(ruler.measured->profile, ruler.measured->summary, 9))
+        commands.push_back(HoverProfile{*point});
 }
 
 }  // namespace worldy::ui

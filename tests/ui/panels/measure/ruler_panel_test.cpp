@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,26 @@ TEST_F(RulerPanel, copiesEachPlaceOfTheProfile) {
         << text;
     EXPECT_EQ(std::ranges::count(text, '\n'), 4) << text;
     EXPECT_TRUE(text.ends_with("\t50\t\n")) << text;
+}
+
+TEST_F(RulerPanel, marksThePlaceOfTheProfileUnderThePointer) {
+    showMeasured();
+    frame();
+    frame();
+    const auto markedAt = [&](float share) {
+        const Rect profile = window_.find("Profile")->rect;
+        PanelWindow::movePointer({profile.x + share * profile.width, profile.y + profile.height / 2});
+        frame();
+        std::optional<std::size_t> marked;
+        for (const Command& command : frame()) {
+            if (const auto* hover = command.as<HoverProfile>()) marked = hover->point;
+        }
+        return marked;
+    };
+    EXPECT_EQ(markedAt(0.02f), 0u);
+    EXPECT_EQ(markedAt(0.5f), 1u);
+    EXPECT_EQ(markedAt(0.98f), 2u);
+    EXPECT_EQ(markedAt(1.5f), std::nullopt);
 }
 
 TEST_F(RulerPanel, drawsAGroundThatIsFlatOrIsNotDrawn) {
