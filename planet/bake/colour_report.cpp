@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cassert>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "planet/bake/colour_tile_sampling.h"
+#include "planet/base/parallel.h"
 #include "planet/base/try.h"
 #include "planet/format/colour_tile.h"
 
@@ -58,26 +64,24 @@ std::uint64_t hashOfEdge(std::span<const std::uint8_t> rgb, Edge edge) {
     return XXH3_64bits(texels.data(), texels.size());
 }
 
+// Verifies the tiles of one face.
 class ColourVerifier {
 public:
     ColourVerifier(const ChunkFile& file, const ColourSource* source, const std::function<bool()>& goOn)
         : file_(file), colour_(*file.info().colour), source_(source), goOn_(goOn) {}
 
-    Result<ColourVerifyReport> run() {
-        for (const Face face : allFaces) {
-            const auto root = file_.readColourRoot(face);
-            if (!root) {
-                problem(root.error().message);
-                continue;
-            }
+    Result<ColourVerifyReport> run(Face face) {
+        if (const auto root = file_.readColourRoot(face)) {
             TRY(visit(*root));
+        } else {
+            problem(root.error().message);
         }
         return report_;
     }
 
 private:
     Result<void> visit(const TileData& tile) {
-        if (goOn_ && !goOn_()) return cancelled();
+        if (!goOn_()) return cancelled();
         ++report_.tiles;
         const std::vector<std::uint8_t> rgb = rgbOfColourTexels(colour_.format, tile.texels);
         for (const Edge edge : allEdges) checkEdge(tile.id, edge, rgb);
@@ -161,7 +165,30 @@ Result<std::vector<ColourLevelReport>> reportColours(const ChunkFile& file) {
 Result<ColourVerifyReport> verifyColours(const ChunkFile& file, const ColourSource* source,
                                          const std::function<bool()>& goOn) {
     assert(file.info().colour);
-    return ColourVerifier(file, source, goOn).run();
+    std::atomic<bool> isStopped = false;
+    const std::function<bool()> allGoOn = [&] { return !isStopped && (!goOn || goOn()); };
+    std::array<Result<ColourVerifyReport>, faceCount> faces;
+    std::mutex mutex;  // of the error
+    std::optional<Error> error;
+    parallelFor(faceCount, [&](std::size_t i) {
+        faces[i] = ColourVerifier(file, source, allGoOn).run(allFaces[i]);
+        if (faces[i]) return;
+        const std::lock_guard lock(mutex);
+        if (!error) error = faces[i].error();
+        isStopped = true;
+    });
+    if (error) return tl::unexpected(*error);
+    ColourVerifyReport report;
+    for (const Result<ColourVerifyReport>& face : faces) {
+        report.tiles += face->tiles;
+        report.edges += face->edges;
+        report.compared += face->compared;
+        report.problemCount += face->problemCount;
+        report.sourceProblems += face->sourceProblems;
+        report.problems.insert(report.problems.end(), face->problems.begin(), face->problems.end());
+    }
+    report.problems.resize(std::min(report.problems.size(), mostColourProblems));
+    return report;
 }
 
 }  // namespace planet

@@ -1,5 +1,5 @@
 // Reports and verifies the colours of a chunk file. Both functions read the file once, depth first, and keep
-// one path of blocks in memory.
+// one path of blocks in memory, for each face that is verified at the same time.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,8 @@ struct ColourVerifyReport {
 
 // Verifies every block's checksum, that its texels unpack, and that neighbouring tiles of a face have the
 // same texels on their shared edge. With a source, it compares every texel. Damage is a problem in the
-// report; the Error is for an unreadable source, or Cancelled. Calls goOn before each tile.
+// report; the Error is for an unreadable source, or Cancelled. Calls goOn before each tile. Verifies the
+// faces in parallel on oneTBB's threads, and calls goOn on any of them.
 Result<ColourVerifyReport> verifyColours(const ChunkFile& file, const ColourSource* source,
                                          const std::function<bool()>& goOn = {});
 

@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "planet/bake/bake_tree.h"
 #include "planet/bake/finest_distance.h"
 #include "planet/bake/quantise.h"
+#include "planet/base/parallel.h"
 #include "planet/base/percentile.h"
 #include "planet/base/try.h"
 #include "planet/source/sample_tiles.h"
@@ -110,7 +113,7 @@ struct SeenEdge {
 
 using ReportProblem = std::function<void(const ChunkId& id, const std::string& what)>;
 
-// Recomputes the tight metric during a depth-first walk of the file, as a bake does: from the finest heights
+// Recomputes the tight metric during a depth-first walk of a part of the file, as a bake does: from the finest heights
 // of one complete subtree at a time, and by a search if cells are wider than a subtree.
 class TightVerifier {
 public:
@@ -163,6 +166,14 @@ public:
         else
             check(met, below.hasLeaves ? std::max(below.deltaGM, above.offM) : above.offM, report);
         return std::nullopt;
+    }
+
+    // Takes over what another part found out about the chunks above it.
+    void merge(const TightVerifier& part) {
+        for (std::size_t level = 0; level < above_.size(); ++level) {
+            above_[level].offM = std::max(above_[level].offM, part.above_[level].offM);
+            above_[level].isUnknown = above_[level].isUnknown || part.above_[level].isUnknown;
+        }
     }
 
     // Checks the chunks of a unit that belongs to no larger one.
@@ -231,28 +242,67 @@ private:
     TileDistances distances_;
 };
 
+// What the threads of a verification share.
+class Verification {
+public:
+    Verification(const ChunkFile& file, const HeightSource* source, const VerifyProgressCallback& progress)
+        : file_(file), source_(source), progress_(progress) {}
+
+    const ChunkFile& file() const { return file_; }
+    const HeightSource* source() const { return source_; }
+
+    // Counts chunks as done. Returns false if the caller has cancelled.
+    bool advance(std::uint64_t chunks) {
+        const std::lock_guard lock(mutex_);
+        done_ += chunks;
+        goesOn_ = goesOn_ && (!progress_ || progress_(done_, file_.info().chunks));
+        return goesOn_;
+    }
+
+    // Ends all parts soon. The first error is that of the verification: the others only follow from it.
+    void stop(const Error& error) {
+        const std::lock_guard lock(mutex_);
+        goesOn_ = false;
+        if (!error_) error_ = error;
+    }
+    const std::optional<Error>& error() const { return error_; }
+
+private:
+    const ChunkFile& file_;
+    const HeightSource* source_;
+    const VerifyProgressCallback& progress_;
+    std::mutex mutex_;  // of the rest
+    std::uint64_t done_ = 0;
+    bool goesOn_ = true;
+    std::optional<Error> error_;
+};
+
+// Verifies a part of the file: the whole of it, or the subtrees under some chunks, which it hands to parts of their own.
 class Verifier {
 public:
-    Verifier(const ChunkFile& file, const HeightSource* source, const VerifyProgressCallback& progress)
-        : file_(file),
-          source_(source),
-          progress_(progress),
-          shape_(file.info().shape),
-          total_(file.info().chunks),
-          isSparse_(file.info().chunks < chunkCountOf(shape_)),
+    explicit Verifier(Verification& whole)
+        : whole_(whole),
+          file_(whole.file()),
+          source_(whole.source()),
+          shape_(file_.info().shape),
+          isSparse_(file_.info().chunks < chunkCountOf(shape_)),
           rims_(shape_),
-          tight_(file) {}
+          tight_(file_) {}
 
     Result<VerifyReport> run() {
+        std::vector<ChunkData> roots;
         for (const Face face : allFaces) {
-            const auto root = file_.readRoot(face);
+            auto root = file_.readRoot(face);
             if (!root) {
                 problem(root.error().message);
                 continue;
             }
             children_[static_cast<std::size_t>(face)] = root->children;
-            TRY_ASSIGN(const auto unit, visit(*root));
-            if (unit) tight_.finish(root->id, *unit, reportProblem());
+            roots.push_back(std::move(*root));
+        }
+        TRY_ASSIGN(const Units units, visitApart(roots));
+        for (std::size_t i = 0; i < roots.size(); ++i) {
+            if (units[i]) tight_.finish(roots[i].id, *units[i], reportProblem());
         }
         if (report_.problemCount == 0) {
             checkTree();
@@ -276,10 +326,51 @@ private:
         return [this](const ChunkId& id, const std::string& what) { chunkProblem(id, what); };
     }
 
+    using Units = std::vector<std::optional<TightVerifier::Unit>>;  // nothing where a chunk is not a unit
+
+    // Visits chunks and everything under them in parallel. What was found is in the order of the chunks.
+    Result<Units> visitApart(std::span<const ChunkData> chunks) {
+        struct Part {
+            Verifier verifier;
+            Result<std::optional<TightVerifier::Unit>> unit{};
+        };
+        std::vector<std::optional<Part>> parts(chunks.size());
+        parallelFor(chunks.size(), [&](std::size_t i) {
+            Part& part = parts[i].emplace(Part{Verifier(whole_)});
+            part.unit = part.verifier.visit(chunks[i]);
+            if (!part.unit) whole_.stop(part.unit.error());
+        });
+        Units units;
+        for (std::optional<Part>& part : parts) {
+            TRY(part->unit);
+            merge(std::move(part->verifier));
+            units.push_back(std::move(*part->unit));
+        }
+        if (toCount_ >= countedAtOnce && !whole_.advance(std::exchange(toCount_, 0))) return cancelled();
+        return units;
+    }
+
+    void merge(Verifier&& part) {
+        toCount_ += part.toCount_;
+        report_.chunks += part.report_.chunks;
+        report_.edges += part.report_.edges;
+        report_.leafSamples += part.report_.leafSamples;
+        report_.sourceProblems += part.report_.sourceProblems;
+        const std::uint64_t unkept = part.report_.problemCount - part.report_.problems.size();
+        for (std::string& message : part.report_.problems) problem(std::move(message));
+        report_.problemCount += unkept;
+        leaves_ += part.leaves_;
+        missed_ += part.missed_;
+        coarsestLeafLevel_ = std::min(coarsestLeafLevel_, part.coarsestLeafLevel_);
+        rims_.merge(part.rims_);
+        tight_.merge(part.tight_);
+        for (const auto& [key, edge] : part.openEdges_) matchEdge(edge, key);
+    }
+
     // Visits a chunk and everything under it. Returns it as a unit if it is one.
     Result<std::optional<TightVerifier::Unit>> visit(const ChunkData& chunk) {
         ++report_.chunks;
-        if (report_.chunks % 512 == 0 && progress_ && !progress_(report_.chunks, total_)) return cancelled();
+        if (++toCount_ == countedAtOnce && !whole_.advance(std::exchange(toCount_, 0))) return cancelled();
         checkBounds(chunk);
         checkEdges(chunk);
         if (!chunk.children.exists()) {
@@ -300,14 +391,28 @@ private:
             problem(children.error().message);
             ++missed_;
         }
+        if (children && isWorthSplitting(*children)) {
+            TRY_ASSIGN(Units units, visitApart(*children));
+            std::ranges::move(units, below.units.begin());
+        } else if (children) {
+            for (std::size_t q = 0; q < children->size(); ++q) {
+                TRY_ASSIGN(below.units[q], visit((*children)[q]));
+            }
+        }
         for (std::size_t q = 0; children && q < children->size(); ++q) {
             const ChunkData& child = (*children)[q];
-            TRY_ASSIGN(below.units[q], visit(child));
             below.largestTightM = std::max(below.largestTightM, child.deltaTightM);
             below.hasLeaves = below.hasLeaves || !child.children.exists();
         }
         below.isWhole = missed_ == missedBefore;
         return tight_.leave(chunk, std::move(below), reportProblem());
+    }
+
+    // Starting a part takes about as long as one chunk, so parts get several: at least two of the children have children
+    // of their own, and only every second level is split.
+    static bool isWorthSplitting(const std::array<ChunkData, quadrantCount>& children) {
+        return children[0].id.level % 2 == 1 &&
+               std::ranges::count_if(children, [](const ChunkData& c) { return c.children.exists(); }) >= 2;
     }
 
     // Checks what the header says of the tree, and that an edge without a chunk of its level on the other
@@ -454,12 +559,14 @@ private:
         return {};
     }
 
+    static constexpr std::uint64_t countedAtOnce = 512;
+
+    Verification& whole_;
     const ChunkFile& file_;
     const HeightSource* source_;
-    const VerifyProgressCallback& progress_;
     PlanetShape shape_;
-    std::uint64_t total_;
     VerifyReport report_;
+    std::uint64_t toCount_ = 0;                      // visited chunks that are not counted as done yet
     std::array<BlockLocation, faceCount> children_;  // of the roots
     std::uint64_t leaves_ = 0;
     std::uint64_t missed_ = 0;  // chunks with unreadable children
@@ -501,7 +608,10 @@ Result<FileReport> reportFile(const ChunkFile& file) {
 
 Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* source,
                                 const VerifyProgressCallback& progress) {
-    return Verifier(file, source, progress).run();
+    Verification whole(file, source, progress);
+    Result<VerifyReport> report = Verifier(whole).run();
+    if (whole.error()) return tl::unexpected(*whole.error());
+    return report;
 }
 
 Result<ProbeReport> probeFile(const ChunkFile& file, const Geographic& place) {

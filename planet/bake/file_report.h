@@ -1,5 +1,5 @@
 // Reports, verifies and probes a chunk file. All functions read the file once, depth first, and keep one path
-// of chunks in memory.
+// of chunks in memory for each thread.
 #pragma once
 
 #include <cstdint>
@@ -50,14 +50,14 @@ struct VerifyReport {
     std::optional<RimReport> rims;      // nothing if all leaves have one level
 };
 
-// Called every few hundred chunks. Returning false cancels.
+// Called every few hundred chunks, by any thread but one at a time. Returning false cancels.
 using VerifyProgressCallback = std::function<bool(std::uint64_t chunksDone, std::uint64_t chunksTotal)>;
 
 // Verifies every checksum; that δc and the tight metric match the heights and never increase downwards; that
 // extremes contain all finest heights and bounds contain every vertex; that two chunks of a level have the
 // same edge where they meet, which makes the edges of leaves of different levels agree too; and that the
 // header counts the chunks. With its source, opened with the same settings, it also compares the heights of
-// all leaves. Damage is a problem in the report; the Error is for a source that is unreadable or belongs to
+// all leaves. Runs on oneTBB's threads, and gives the same report for any number of them. Damage is a problem in the report; the Error is for a source that is unreadable or belongs to
 // another planet.
 Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* source,
                                 const VerifyProgressCallback& progress = {});

@@ -63,6 +63,22 @@ void RimSteps::add(const ChunkData& leaf) {
         directionAt(leaf.id, static_cast<double>(steepestAt % side) * cell, static_cast<double>(row) * cell));
 }
 
+void RimSteps::merge(const RimSteps& other) {
+    byLevel_.resize(std::max(byLevel_.size(), other.byLevel_.size()));
+    for (std::size_t level = 0; level < other.byLevel_.size(); ++level) {
+        const Slopes& theirs = other.byLevel_[level];
+        Slopes& ours = byLevel_[level];
+        for (std::size_t bin = 0; bin < theirs.counts.size(); ++bin) ours.counts[bin] += theirs.counts[bin];
+        ours.largest = std::max(ours.largest, theirs.largest);
+    }
+    for (const auto& [key, theirs] : other.byGroup_) {
+        Group& ours = byGroup_[key];
+        ours.leaves += theirs.leaves;
+        if (ours.steepest.overM <= 0 || theirs.steepest.slope() > ours.steepest.slope())
+            ours.steepest = theirs.steepest;
+    }
+}
+
 double RimSteps::slopeBelow(int level, double share) const {
     const auto& counts = byLevel_[static_cast<std::size_t>(level)].counts;
     std::uint64_t all = 0;

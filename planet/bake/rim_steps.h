@@ -1,5 +1,5 @@
 // Measures how steep the finest surface is where the depth of the tree changes: at the rims of what a finer source
-// covers. Internal to the library; one thread.
+// covers. Internal to the library; one thread at a time.
 #pragma once
 
 #include <array>
@@ -39,6 +39,9 @@ public:
 
     // Adds a leaf. All its cells count as long as the one at its middle.
     void add(const ChunkData& leaf);
+
+    // Adds the leaves of another one.
+    void merge(const RimSteps& other);
 
     // Returns the report; nothing if there are no rims. touching: leaves that have a coarser one beside them, any
     // number of times.
