@@ -187,6 +187,8 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
         {"page_in", "Load against a plain loop", [&, largest] { return benchPageIn(largest(), options); }},
         {"bake", "Bake against reading the source and zstd -1",
          [&] { return benchBake(source, planets.front().faceSize, options, folder); }},
+        {"verify", "Verification on all threads against one",
+         [&, largest] { return benchVerify(largest(), options); }},
         {"file_size", "File size against the finest heights alone",
          [&, largest] { return benchFileSize(largest(), folder); }},
         {"colours", "Load of colours against a plain loop",

@@ -1,5 +1,6 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "app/cli/bench_parts.h"
 #include "planet/bake/bake.h"
+#include "planet/bake/file_report.h"
 #include "planet/planet.h"
 
 namespace worldy {
@@ -239,6 +241,21 @@ BenchRows benchBake(const planet::HeightSource& source, int faceSize, const Benc
     if (!report) return tl::unexpected(report.error());
     return pairedRates({fmt::format("baking faces of {}, one thread", faceSize), "reading and zstd -1"},
                        "Msamples/s", static_cast<double>(report->samples) / 1e6, ms);
+}
+
+BenchRows benchVerify(const BenchPlanet& planet, const BenchOptions& options) {
+    const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
+    if (!file) return tl::unexpected(file.error());
+    Result<planet::VerifyReport> report;
+    const auto verify = [&] { report = planet::verifyFile(*file, nullptr); };
+    tbb::task_arena all;
+    tbb::task_arena one(1);
+    const std::array<std::function<void()>, 2> jobs = {[&] { all.execute(verify); },
+                                                       [&] { one.execute(verify); }};
+    const std::vector<std::vector<double>> ms = timeInTurn(jobs, options.rounds);
+    if (!report) return tl::unexpected(report.error());
+    return pairedRates({fmt::format("verifying, {} threads", all.max_concurrency()), "one thread"},
+                       "k chunks/s", static_cast<double>(report->chunks) / 1e3, ms);
 }
 
 BenchRows benchFileSize(const BenchPlanet& planet, const std::filesystem::path& folder) {

@@ -13,8 +13,8 @@
 
 namespace worldy {
 
-inline constexpr std::array<std::string_view, 7> benchParts = {"lod",  "dynamic",   "selection", "page_in",
-                                                               "bake", "file_size", "colours"};
+inline constexpr std::array<std::string_view, 8> benchParts = {"lod",  "dynamic", "selection", "page_in",
+                                                               "bake", "verify",  "file_size", "colours"};
 
 struct BenchOptions {
     std::filesystem::path source;  // an elevation image or cube faces; empty: the built-in Earth

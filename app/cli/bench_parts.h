@@ -60,10 +60,12 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options);
 // (e) Measures baking on one thread against reading the source's samples and packing them with zstd -1.
 BenchRows benchBake(const planet::HeightSource& source, int faceSize, const BenchOptions& options,
                     const std::filesystem::path& folder);
-// (f) Compares the size of the file with all levels with other formats for the finest heights alone.
+// (f) Measures verifying the heights of a file on all threads against one thread.
+BenchRows benchVerify(const BenchPlanet& planet, const BenchOptions& options);
+// (g) Compares the size of the file with all levels with other formats for the finest heights alone.
 BenchRows benchFileSize(const BenchPlanet& planet, const std::filesystem::path& folder);
 
-// (g) Measures paging in and uploading every colour tile with one loader against reading and unpacking the
+// (h) Measures paging in and uploading every colour tile with one loader against reading and unpacking the
 // same blocks in a loop, and the memory per tile. image empty: synthetic colours.
 BenchRows benchColours(const std::filesystem::path& image, const BenchOptions& options,
                        const std::filesystem::path& folder);
