@@ -50,13 +50,16 @@ std::vector<float> leastWidths(std::span<const Column> columns, float width) {
     return std::accumulate(wanted.begin(), wanted.end(), 0.0f) <= width ? wanted : needed;
 }
 
+// The columns are windows within the panel's; the flag lets Tab and the arrows go from one to the next.
+constexpr ImGuiWindowFlags columnFlags = ImGuiWindowFlags_NavFlattened;
+
 void drawSideBySide(std::span<const Column> columns) {
     const std::vector<float> widths = sideBySideWidths(columns, roomFor(columns));
     const float height =
         std::max(ImGui::GetContentRegionAvail().y, leastColumnLines * ImGui::GetTextLineHeightWithSpacing());
     for (std::size_t i = 0; i < columns.size(); ++i) {
         if (i > 0) ImGui::SameLine(0, gapWidth());
-        ImGui::BeginChild(columns[i].title, {widths[i], height});
+        ImGui::BeginChild(columns[i].title, {widths[i], height}, false, columnFlags);
         columns[i].draw();
         ImGui::EndChild();
     }
@@ -69,7 +72,8 @@ void drawStacked(std::span<const Column> columns) {
             column.draw();
             continue;
         }
-        ImGui::BeginChild(column.title, {0, column.stackedLines * ImGui::GetTextLineHeightWithSpacing()});
+        ImGui::BeginChild(column.title, {0, column.stackedLines * ImGui::GetTextLineHeightWithSpacing()},
+                          false, columnFlags);
         column.draw();
         ImGui::EndChild();
     }

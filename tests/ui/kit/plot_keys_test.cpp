@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <functional>
 #include <optional>
 
 #include "tests/support/panel_fixture.h"
+#include "ui/kit/columns.h"
 
 namespace worldy::ui {
 namespace {
@@ -23,6 +26,7 @@ protected:
     }
     void frame() {
         window_.frame([&] {
+            if (drawPanel_) return drawPanel_();
             ImGui::Button("before");
             plotItem("samples", {200, 50});
             wasClicked_ |= ImGui::IsItemActive();
@@ -43,6 +47,7 @@ protected:
     }
 
     PanelWindow window_{{400, 300}};
+    std::function<void()> drawPanel_;  // in place of the two plots
     std::size_t count_ = 21;
     std::optional<std::size_t> at_;
     int acts_ = 0, right_ = 0;
@@ -117,6 +122,37 @@ TEST_F(PlotKeysTest, thePointerTakesOverWhenItMovesOverThePlot) {
     EXPECT_FALSE(at_);
     type(ImGuiKey_LeftArrow);
     EXPECT_EQ(at_, 19u);
+}
+
+// Columns side by side are windows within the panel's window.
+class PlotsInColumnsTest : public PlotKeysTest {
+protected:
+    PlotsInColumnsTest() {
+        PanelWindow::resize({1200, 300});
+        drawPanel_ = [this] {
+            const std::array<Column, 2> columns = {
+                {{.title = "left", .draw = [this] { plot("left", isLeft_); }},
+                 {.title = "right", .draw = [this] { plot("right", isRight_); }}}};
+            drawColumns("columns", columns);
+        };
+        frame();
+        frame();
+    }
+    static void plot(const char* id, bool& hasKeyboard) {
+        plotItem(id, {200, 50});
+        takePlotKeys(PlotReads::View);
+        hasKeyboard = plotHasKeyboard();
+    }
+
+    bool isLeft_ = false, isRight_ = false;
+};
+
+TEST_F(PlotsInColumnsTest, tabGoesFromColumnToColumn) {
+    type(ImGuiKey_Tab);
+    EXPECT_TRUE(isLeft_);
+    type(ImGuiKey_Tab);
+    EXPECT_FALSE(isLeft_);
+    EXPECT_TRUE(isRight_);
 }
 
 }  // namespace
