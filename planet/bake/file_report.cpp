@@ -346,9 +346,12 @@ private:
             merge(std::move(part->verifier));
             units.push_back(std::move(*part->unit));
         }
-        if (toCount_ >= countedAtOnce && !whole_.advance(std::exchange(toCount_, 0))) return cancelled();
+        if (!goesOn()) return cancelled();
         return units;
     }
+
+    // Counts the visited chunks once they are enough. Returns false if the caller has cancelled.
+    bool goesOn() { return toCount_ < countedAtOnce || whole_.advance(std::exchange(toCount_, 0)); }
 
     void merge(Verifier&& part) {
         toCount_ += part.toCount_;
@@ -370,7 +373,8 @@ private:
     // Visits a chunk and everything under it. Returns it as a unit if it is one.
     Result<std::optional<TightVerifier::Unit>> visit(const ChunkData& chunk) {
         ++report_.chunks;
-        if (++toCount_ == countedAtOnce && !whole_.advance(std::exchange(toCount_, 0))) return cancelled();
+        ++toCount_;
+        if (!goesOn()) return cancelled();
         checkBounds(chunk);
         checkEdges(chunk);
         if (!chunk.children.exists()) {

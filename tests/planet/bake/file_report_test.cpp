@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/open_bytes.h"
 #include "tests/support/sparse_planet.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,15 +21,6 @@ namespace {
 
 using test::sparsePlanet;
 using testing::IsEmpty;
-
-ChunkFile openedBytes(const std::vector<std::byte>& bytes) {
-    return ChunkFile::open("bytes.chk", bytes.size(),
-                           [&bytes](std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
-                               std::memcpy(out.data(), bytes.data() + offset, out.size());
-                               return {};
-                           })
-        .value();
-}
 
 // The sparse planet, damaged at so many places of its blocks.
 std::vector<std::byte> damagedPlanet(int places) {
@@ -76,7 +68,7 @@ TEST(VerifyFile, reportIsTheSameForAnyNumberOfThreads) {
 TEST(VerifyFile, problemsAreTheSameAndInTheSameOrderForAnyNumberOfThreads) {
     for (const int places : {1, 7, 400}) {
         const std::vector<std::byte> bytes = damagedPlanet(places);
-        const ChunkFile file = openedBytes(bytes);
+        const ChunkFile file = test::openBytes(bytes).value();
         const VerifyReport alone = verifiedBy(1, file);
         EXPECT_GT(alone.problemCount, 0u) << places;
         // Chunks above a damaged block are not judged by what is left under them.

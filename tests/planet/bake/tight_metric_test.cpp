@@ -20,6 +20,7 @@
 #include "planet/format/chunk_file_format.h"
 #include "planet/select/drawn_surface.h"
 #include "tests/support/chunks_of_file.h"
+#include "tests/support/open_bytes.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
 
@@ -284,25 +285,17 @@ std::vector<std::byte> withRootTightM(const std::filesystem::path& path, float t
     return bytes;
 }
 
-Result<ChunkFile> openUnchecked(const std::vector<std::byte>& bytes) {
-    return ChunkFile::open("test.chk", bytes.size(),
-                           [&bytes](std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
-                               std::memcpy(out.data(), bytes.data() + offset, out.size());
-                               return {};
-                           });
-}
-
 TEST(TightMetric, HostileValuesInTheFileAreRefused) {
     const Baked baked(roughSource(65), {.chunkSize = 17});
     const ChunkData& root = baked.chunks.at({Face::PosX, 0, 0, 0});
     for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(),
                             std::numeric_limits<float>::infinity(), std::nextafter(root.deltaCM, 1e30f)}) {
         const auto bytes = withRootTightM(baked.path(), bad);
-        const auto read = openUnchecked(bytes)->readRoot(Face::PosX);
+        const auto read = test::openBytes(bytes)->readRoot(Face::PosX);
         ASSERT_FALSE(read) << bad;
         EXPECT_THAT(read.error().message, HasSubstr("out of range"));
     }
-    EXPECT_TRUE(openUnchecked(withRootTightM(baked.path(), root.deltaTightM))->readRoot(Face::PosX));
+    EXPECT_TRUE(test::openBytes(withRootTightM(baked.path(), root.deltaTightM))->readRoot(Face::PosX));
 }
 
 TEST(TightMetric, VerifyFindsOneThatWasHalvedAndNothingElse) {
@@ -310,7 +303,7 @@ TEST(TightMetric, VerifyFindsOneThatWasHalvedAndNothingElse) {
     const float honest = baked.chunks.at({Face::PosX, 0, 0, 0}).deltaTightM;
     EXPECT_EQ(verifyFile(*ChunkFile::open(baked.path()), nullptr)->problemCount, 0u);
     const auto bytes = withRootTightM(baked.path(), honest * 0.999f);
-    const auto report = verifyFile(*openUnchecked(bytes), nullptr);
+    const auto report = verifyFile(*test::openBytes(bytes), nullptr);
     ASSERT_TRUE(report);
     ASSERT_GE(report->problemCount, 1u);
     for (const std::string& problem : report->problems) {

@@ -13,11 +13,14 @@
 #include "planet/bake/file_report.h"
 #include "planet/base/little_endian.h"
 #include "planet/format/chunk_file_format.h"
+#include "tests/support/open_bytes.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
 
 namespace planet {
 namespace {
+
+using test::openBytes;
 
 using Bytes = std::vector<std::byte>;
 
@@ -43,16 +46,6 @@ private:
     static Bytes* whole_;
 };
 Bytes* ChunkFileTest::whole_ = nullptr;
-
-Result<ChunkFile> openBytes(const Bytes& bytes) {
-    return ChunkFile::open(
-        "test.chk", bytes.size(), [&bytes](std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
-            if (offset + out.size() > bytes.size())
-                return ioError("read beyond the end");  // the reader must never ask
-            std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), out.size(), out.begin());
-            return {};
-        });
-}
 
 std::string messageOf(const Bytes& bytes) {
     const auto file = openBytes(bytes);
