@@ -242,7 +242,7 @@ private:
     TileDistances distances_;
 };
 
-// What the threads of a verification share.
+// The file, the source and the progress, which all threads of a verification share.
 class Verification {
 public:
     Verification(const ChunkFile& file, const HeightSource* source, const VerifyProgressCallback& progress)
@@ -328,7 +328,7 @@ private:
 
     using Units = std::vector<std::optional<TightVerifier::Unit>>;  // nothing where a chunk is not a unit
 
-    // Visits chunks and everything under them in parallel. What was found is in the order of the chunks.
+    // Visits chunks and everything under them in parallel. Their problems are in the order of the chunks.
     Result<Units> visitApart(std::span<const ChunkData> chunks) {
         struct Part {
             Verifier verifier;
