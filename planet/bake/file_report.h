@@ -57,8 +57,8 @@ using VerifyProgressCallback = std::function<bool(std::uint64_t chunksDone, std:
 // extremes contain all finest heights and bounds contain every vertex; that two chunks of a level have the
 // same edge where they meet, which makes the edges of leaves of different levels agree too; and that the
 // header counts the chunks. With its source, opened with the same settings, it also compares the heights of
-// all leaves. Runs on oneTBB's threads, and gives the same report for any number of them. Damage is a problem in the report; the Error is for a source that is unreadable or belongs to
-// another planet.
+// all leaves. Runs on oneTBB's threads, and gives the same report for any number of them. Damage is a problem
+// in the report; the Error is for a source that is unreadable or belongs to another planet.
 Result<VerifyReport> verifyFile(const ChunkFile& file, const HeightSource* source,
                                 const VerifyProgressCallback& progress = {});
 
