@@ -51,9 +51,11 @@ Log::Log() : sink_(std::make_shared<Sink>()) {
     terminal->set_level(spdlog::level::info);
 }
 
-void Log::moveNewLines(std::deque<LogLine>& lines) const {
-    for (LogLine& line : sink_->takeLines()) lines.push_back(std::move(line));
+std::size_t Log::moveNewLines(std::deque<LogLine>& lines) const {
+    std::vector<LogLine> taken = sink_->takeLines();
+    for (LogLine& line : taken) lines.push_back(std::move(line));
     while (lines.size() > keptLines) lines.pop_front();
+    return taken.size();
 }
 
 }  // namespace worldy

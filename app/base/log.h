@@ -3,6 +3,7 @@
 
 #include <spdlog/logger.h>
 
+#include <cstddef>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -20,8 +21,9 @@ public:
     spdlog::logger& operator*() const { return *logger_; }
     spdlog::logger* operator->() const { return logger_.get(); }
 
-    // Appends the lines logged since the last call and removes the oldest beyond keptLines.
-    void moveNewLines(std::deque<LogLine>& lines) const;
+    // Appends the lines logged since the last call, removes the oldest beyond keptLines, and returns how many of the
+    // lines are new.
+    std::size_t moveNewLines(std::deque<LogLine>& lines) const;
 
     static constexpr std::size_t keptLines = 2000;
 

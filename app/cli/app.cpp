@@ -202,7 +202,7 @@ int runWindow(Window& window, const AppOptions& options, CheckedData data, const
     log->info("{}", window.openGlText());
     Session session = startSession(std::move(data.set), options.shaderFolder, log, std::move(data.source));
     session.shaders.worker = window.makeShaderWorker();
-    Editor editor(open.settings, log);
+    Editor editor(open.settings, open.mayBeSaved ? open.file : fs::path{}, log);
     editor.keepItemMap(options.itemMapFile);
     if (isTraceFile(options.file))
         editor.resume({.trace = options.file}, {}, {});

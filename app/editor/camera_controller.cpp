@@ -85,7 +85,11 @@ struct CameraHandler {
     void operator()(const ui::KeepCameraAsStart&) const {
         if (!isThere()) return;
         context.settings.camera = poseOf(camera.rig->camera, radiusM());
-        confirm(notices, "Future sessions start here");
+        if (context.settingsFile.empty())
+            confirm(notices, "This session starts here; its settings are not saved");
+        else
+            confirm(notices, fmt::format("Future sessions start here (saved with the settings in {})",
+                                         context.settingsFile.string()));
     }
     void operator()(const ui::AddBookmark& command) const {
         if (!isThere()) return;

@@ -49,7 +49,8 @@ struct CameraContext {
     PopSide& popSide;
     bool& stepOnce;  // FrameController::stepOnce
     bool framesPaused;
-    ui::ReplayControls* replay;  // null if no replay is running
+    ui::ReplayControls* replay;            // null if no replay is running
+    std::filesystem::path settingsFile{};  // empty: the settings are not saved
 };
 
 void execute(CameraController& camera, const ui::CameraCommand& command, const CameraContext& context,

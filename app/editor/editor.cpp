@@ -44,9 +44,10 @@ void takeDrops(const Window& window, ui::BakePanelState& panel, SourceController
 
 }  // namespace
 
-Editor::Editor(const Settings& settings, const Log& log)
+Editor::Editor(const Settings& settings, const std::filesystem::path& settingsFile, const Log& log)
     : notices_{log}, files_(openFileController()), layers_(openLayers()) {
     settings_.settings = settings;
+    settings_.file = settingsFile;
     camera_.bookmarks = loadBookmarks(bookmarksFile());
     if (!camera_.bookmarks.problem.empty())
         tellError(notices_, {"The bookmarks cannot be read", camera_.bookmarks.problem, ""});
@@ -64,7 +65,8 @@ CameraContext Editor::cameraContext(const Scene* scene) {
             instruments_.pops.side,
             frames_.stepOnce,
             frames_.paused,
-            recording_.replay ? &recording_.replay->controls : nullptr};
+            recording_.replay ? &recording_.replay->controls : nullptr,
+            settings_.file};
 }
 
 ReplayContext Editor::replayContext() {
@@ -165,7 +167,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
 
     part.emplace("panels");
     const Stopwatch panelWatch;
-    notices_.log.moveNewLines(window_.logLines);
+    const std::size_t newLines = notices_.log.moveNewLines(window_.logLines);
+    alertOf(notices_, window_.logLines, newLines);
     const ViewSettings before = settings_.settings.view;
     const ui::EditorView shown = view(session);
     drawPanels(window_, {session, shown, layout, settings_.settings, viewport_, files_.dialog, notices_},
@@ -436,6 +439,7 @@ void Editor::tellProblems(const Session& session) {
     };
     const std::optional<planet::Error>& bake = session.bakeProblem;
     // Without a planet, the viewport tells it.
+    notices_.told["The viewport"] = !session.open && session.problem ? session.problem->message : "";
     const bool isFailure = bake && session.open && bake->kind != planet::ErrorKind::Cancelled;
     tell(PanelId::Bake, "The bake failed", isFailure ? bake->message : "");
     tell(PanelId::Sweep, "The sweep has no result", sweep_.cancelled ? "" : sweep_.problem);

@@ -28,7 +28,8 @@ namespace worldy {
 // Owns no window and no planet.
 class Editor {
 public:
-    Editor(const Settings& settings, const Log& log);
+    // settingsFile: what the caller saves the settings in, empty if it does not.
+    Editor(const Settings& settings, const std::filesystem::path& settingsFile, const Log& log);
 
     const Settings& settings() const { return settings_.settings; }
     // Writes the positions of controls into a file after each frame.

@@ -121,9 +121,11 @@ void drawPanels(WindowController& window, const PanelContext& context, ui::Comma
     ui::statusBar(view, settings, context.layout.statusBar);
     ui::helpWindows(actions);
     ui::layoutWindows(view, window.menu.layout, commands);
-    ui::confirmationLine(context.notices.confirmation, context.notices.timeS, middle);
+    Notices& notices = context.notices;
+    const float below = ui::confirmationLine(notices.confirmation, notices.timeS, middle);
+    ui::alertBoxes(notices.alerts, notices.timeS, middle, below);
     ui::openDialog(context.openDialog, commands);
-    ui::messageBox(context.notices.message, commands);
+    ui::messageBox(notices.message, commands);
     ui::dropQuestion(view.sources, commands);
     ui::palette(actions);
     ui::followFocus(workspace, window.menu);

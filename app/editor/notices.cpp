@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/flight/flight_record.h"
@@ -46,6 +47,25 @@ void tellOnce(Notices& notices, const Workspace& workspace, PanelId panel, const
     if (told == problem) return;
     told = problem;
     if (!problem.empty() && !ui::isVisible(panel, workspace)) showError(notices, {title, problem, ""});
+}
+
+void alertOf(Notices& notices, const std::deque<LogLine>& log, std::size_t newLines) {
+    const auto isTold = [&](const std::string& text) {
+        return notices.message.text.find(text) != std::string::npos ||
+               std::ranges::any_of(notices.told, [&](const auto& told) { return told.second == text; });
+    };
+    for (std::size_t i = log.size() - newLines; i < log.size(); ++i) {
+        const LogLine& line = log[i];
+        if (line.level < LogLevel::Warning || isTold(line.text)) continue;
+        const double untilS = notices.timeS + alertS;
+        const auto shown = std::ranges::find(notices.alerts, line.text, &ui::Alert::text);
+        if (shown == notices.alerts.end()) {
+            notices.alerts.push_back({line.level, line.text, 1, untilS});
+        } else {
+            ++shown->count;
+            shown->untilS = untilS;
+        }
+    }
 }
 
 bool succeeded(Notices& notices, const planet::Result<void>& result, const std::string& failed) {

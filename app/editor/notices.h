@@ -2,9 +2,11 @@
 // Main thread.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "app/base/log.h"
 #include "app/settings/workspace.h"
@@ -17,11 +19,13 @@ struct Notices {
     const Log& log;
     ui::Message message{};
     ui::Confirmation confirmation{};
+    std::vector<ui::Alert> alerts{};
     double timeS = 0;                           // time of this frame since the window opened
     std::map<std::string, std::string> told{};  // the problem that tellOnce() was last called with, by title
 };
 
 inline constexpr double confirmationS = 5;  // how long a confirmation is shown
+inline constexpr double alertS = 12;        // how long an alert is shown
 
 // Shows a value for a moment after each of its changes.
 void showBriefly(Notices& notices, const std::string& text);
@@ -37,6 +41,9 @@ void tellError(Notices& notices, ui::Message message);
 // if there is none. It is in the log already.
 void tellOnce(Notices& notices, const Workspace& workspace, PanelId panel, const std::string& title,
               const std::string& problem);
+// Shows for alertS the warnings and errors among the newest lines of the log, unless tellError(), showError() or
+// tellOnce() has told them. newLines: how many are new.
+void alertOf(Notices& notices, const std::deque<LogLine>& log, std::size_t newLines);
 // Reports an Error with failed as the title. Returns true if the result is not an Error.
 bool succeeded(Notices& notices, const planet::Result<void>& result, const std::string& failed);
 

@@ -1,6 +1,7 @@
 // The settings, their undo history and the presets. Main thread.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,7 @@ namespace worldy {
 
 struct SettingsController {
     Settings settings;
+    std::filesystem::path file{};  // what the settings are saved in, empty if they are not
     UndoHistory undo;
     PresetLibrary presets{presetFolders()};
     LayoutLibrary layouts{layoutFolders()};

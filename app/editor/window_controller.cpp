@@ -89,14 +89,15 @@ void saveExport(const ui::SaveExport& save, Notices& notices) {
               notices);
 }
 
-Result<std::filesystem::path> savePlot(const ui::SavePlotPicture& plot, const Picture& whole,
-                                       float pixelRatio) {
-    if (plot.rect.x >= ui::secondWindowX)
-        return planet::badInput(
-            "The plot is in the second window; move its panel into the main window and save it again");
+Result<std::filesystem::path> savePlot(const ui::SavePlotPicture& plot, const Window& window) {
+    const bool isInSecond = plot.rect.x >= ui::secondWindowX;
+    const Picture whole = isInSecond ? window.readSecondPicture() : window.readPicture();
+    const float left = isInSecond ? ui::secondWindowX : 0;
+    const float width = isInSecond ? window.secondRect().width : window.width();
+    const float pixelRatio = static_cast<float>(whole.width) / width;
     const auto pixels = [&](float units) { return static_cast<int>(std::lround(units * pixelRatio)); };
-    const Picture picture = partOf(whole, pixels(plot.rect.x), pixels(plot.rect.y), pixels(plot.rect.width),
-                                   pixels(plot.rect.height));
+    const Picture picture = partOf(whole, pixels(plot.rect.x - left), pixels(plot.rect.y),
+                                   pixels(plot.rect.width), pixels(plot.rect.height));
     if (picture.rgb.empty())
         return planet::badInput("The plot is out of sight; scroll to it and save it again");
     Result<std::filesystem::path> file =
@@ -170,10 +171,8 @@ void execute(WindowController& controller, const ui::WindowCommand& command, con
 }
 
 void savePlots(WindowController& controller, const Window& window, Notices& notices) {
-    if (controller.plotsPending.empty()) return;
-    const Picture whole = window.readPicture();
     for (const ui::SavePlotPicture& plot : std::exchange(controller.plotsPending, {}))
-        tellSaved(savePlot(plot, whole, window.pixelRatio()), notices);
+        tellSaved(savePlot(plot, window), notices);
 }
 
 void noteMove(WindowController& controller, const ui::MoveCamera& move,

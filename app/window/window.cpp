@@ -71,6 +71,24 @@ GLFWwindow* createHiddenWindow(GLFWwindow* sharing) {
     return window;
 }
 
+// Reads the current context's default framebuffer: rows from the top, sRGB.
+Picture readFramebuffer(GLFWwindow* window) {
+    Picture picture;
+    glfwGetFramebufferSize(window, &picture.width, &picture.height);
+    const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
+    std::vector<std::uint8_t> upsideDown(rowBytes * static_cast<std::size_t>(picture.height));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE, upsideDown.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    picture.rgb.reserve(upsideDown.size());
+    for (auto row = upsideDown.end(); row != upsideDown.begin();) {
+        row -= static_cast<std::ptrdiff_t>(rowBytes);
+        picture.rgb.insert(picture.rgb.end(), row, row + static_cast<std::ptrdiff_t>(rowBytes));
+    }
+    return picture;
+}
+
 // Clears the background behind docks and pictures at once; with software rendering, filling it per window takes much of a
 // frame.
 void clearForPanels(int widthPx, int heightPx) {
@@ -417,22 +435,26 @@ bool Window::takeSecondClosed() const {
 }
 
 // Draws ImGui's windows again, from another place of the canvas. Textures and buffers are shared; the backend makes the
-// vertex array, which is not, for each drawing.
+// vertex array, which is not, for each drawing. Leaves the second window's context current.
 void Window::drawSecond() const {
-    if (!glfw_->second) return;
-    const planet::SpanScope span("second window");
     const ui::Rect rect = secondRect();
     int widthPx = 0, heightPx = 0;
     glfwGetFramebufferSize(glfw_->second, &widthPx, &heightPx);
+    glfwMakeContextCurrent(glfw_->second);
     if (rect.width <= 0 || rect.height <= 0 || widthPx <= 0 || heightPx <= 0) return;
     ImDrawData part = *ImGui::GetDrawData();
     part.DisplayPos = {rect.x, rect.y};
     part.DisplaySize = {rect.width, rect.height};
     part.FramebufferScale = {static_cast<float>(widthPx) / rect.width,
                              static_cast<float>(heightPx) / rect.height};
-    glfwMakeContextCurrent(glfw_->second);
     clearForPanels(widthPx, heightPx);
     ImGui_ImplOpenGL3_RenderDrawData(&part);
+}
+
+void Window::presentSecond() const {
+    if (!glfw_->second) return;
+    const planet::SpanScope span("second window");
+    drawSecond();
     glfwSwapBuffers(glfw_->second);
     glfwMakeContextCurrent(glfw_->window);
 }
@@ -522,7 +544,7 @@ void Window::endFrame(const std::function<void()>& drawn) {
     const Stopwatch present;
     glfwSwapBuffers(glfw_->window);
     presentMs_ = present.elapsedMs();
-    drawSecond();
+    presentSecond();
     glfw_->droppedFiles.clear();
 }
 
@@ -544,19 +566,13 @@ const std::vector<std::filesystem::path>& Window::droppedFiles() const {
 }
 
 Picture Window::readPicture() const {
-    Picture picture;
-    glfwGetFramebufferSize(glfw_->window, &picture.width, &picture.height);
-    const std::size_t rowBytes = 3 * static_cast<std::size_t>(picture.width);
-    std::vector<std::uint8_t> upsideDown(rowBytes * static_cast<std::size_t>(picture.height));
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE, upsideDown.data());
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    picture.rgb.reserve(upsideDown.size());
-    for (auto row = upsideDown.end(); row != upsideDown.begin();) {
-        row -= static_cast<std::ptrdiff_t>(rowBytes);
-        picture.rgb.insert(picture.rgb.end(), row, row + static_cast<std::ptrdiff_t>(rowBytes));
-    }
+    return readFramebuffer(glfw_->window);
+}
+
+Picture Window::readSecondPicture() const {
+    drawSecond();
+    Picture picture = readFramebuffer(glfw_->second);
+    glfwMakeContextCurrent(glfw_->window);
     return picture;
 }
 

@@ -95,6 +95,8 @@ public:
 
     // Reads the default framebuffer before the next endFrame() swaps it: rows from the top, sRGB.
     Picture readPicture() const;
+    // Reads the second window likewise, from within endFrame(). It must be open.
+    Picture readSecondPicture() const;
     // Return the GPU time of drawing ImGui's windows, and the time of presenting the frame.
     double panelsGpuMs();
     double presentMs() const;
@@ -109,6 +111,7 @@ private:
     Window() = default;
     void startImGui(const WindowConfig& config);
     void drawSecond() const;
+    void presentSecond() const;
     float contentScale() const;
 
     struct Glfw;

@@ -209,6 +209,17 @@ drawn=$(counter triangles); slide "lod/Tolerance τ" 0.15; settle
 [ $(counter triangles) -gt $drawn ] || echo "the slider does not work: $(counter triangles) of $drawn triangles"
 click "lod/Error metric"; expect in_second "lod/Error metric: tight"; click "lod/Error metric: tight"
 key F2; expect counts lod_frozen -eq 1; key F2
+# A drag over it shows there where the panel would go. Esc ends the drag.
+point tab/Frame; press; xdotool mousemove 760 200; frames; xdotool mousemove 950 250; frames; nap 0.3; shot drag.png
+expect in_second drop/Preview; key Escape; release
+blue=$(convert drag.png -crop 1x1+1100+300 +repage txt: | tail -1); convert drag.png -crop 1x1+1100+300 +repage -format '%[fx:u.b>u.r+0.03]' info: | grep -q 1 || echo "no preview is drawn in the second window: $blue"
+# A plot is saved from there.
+point tab/Seams; xdotool click 3; frames 4; click "tab menu/Move to the second window"; expect in_second tab/Seams
+click "seams/level differences menu" && click "seams/Save picture as PNG"; expect says 'level differences.png'
+plot=$(find . -name '*level differences.png' | head -1)
+[ "$(identify -format '%k' "$plot" 2>/dev/null)" -gt 10 ] || echo "the picture of the plot is empty"
+point tab/Seams; xdotool click 3; frames 4; click "tab menu/Move to the left"; frames
+in_second tab/Seams && echo "Seams is still in the second window"
 # A maximised dock leaves it alone.
 double_click tab/Frame; expect shown tab/Restore; in_second tab/LOD || echo "a maximised dock covers the second window"; key Escape
 # It is dragged back into the dock that it came from, and the window closes.

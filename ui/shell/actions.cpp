@@ -272,6 +272,25 @@ void stepTab(int step, const Context& c) {
     showPanel(*c.menu.usedPanel, c.workspace);
 }
 
+// step: -1 or 1.
+std::string cannotMoveTab(int step, const Context& c) {
+    if (std::string why = needsUsedPanel(c); !why.empty()) return why;
+    const PanelPlace& place = placeOf(*c.menu.usedPanel, c.workspace);
+    if (place.floats) return "The panel floats and has no tab.";
+    const std::vector<PanelId> tabs = panelsIn(place.dock, c.workspace);
+    const bool isLast = *c.menu.usedPanel == (step < 0 ? tabs.front() : tabs.back());
+    return unless(!isLast, step < 0 ? "It is the first tab of its dock." : "It is the last tab of its dock.");
+}
+
+// Moves the panel's tab among those of its dock.
+void moveTab(int step, const Context& c) {
+    const PanelId panel = *c.menu.usedPanel;
+    const Dock dock = dockOf(panel, c.workspace);
+    const std::size_t position = positionIn(dock, panel, c.workspace);
+    dockPanel(panel, dock, step < 0 ? position - 1 : position + 1, c.workspace);
+    c.menu.focusesPanel = true;
+}
+
 void maximiseUsedPanel(const Context& c) {
     PanelPlace& place = c.workspace.panels[static_cast<std::size_t>(*c.menu.usedPanel)];
     place.floats = false;
@@ -302,6 +321,12 @@ void addFocusedPanel(List& list) {
         [](const Context& c) { stepTab(1, c); });
     add("previous_tab", "Previous tab", "Brings the previous panel of the dock to the front.",
         {"Ctrl+PageUp"}, [](const Context& c) { stepTab(-1, c); });
+    add("move_tab_forward", "Move tab forward", "Moves the panel's tab past the next one of its dock.",
+        {"Ctrl+Shift+PageDown"}, [](const Context& c) { moveTab(1, c); });
+    list.back().whyNot = [](const Context& c) { return cannotMoveTab(1, c); };
+    add("move_tab_back", "Move tab back", "Moves the panel's tab before the previous one of its dock.",
+        {"Ctrl+Shift+PageUp"}, [](const Context& c) { moveTab(-1, c); });
+    list.back().whyNot = [](const Context& c) { return cannotMoveTab(-1, c); };
     add("move_panel_left", "Move panel to the left dock", "Moves the panel that had the focus last.", {},
         [](const Context& c) { movePanel(Dock::Left, c); });
     add("move_panel_right", "Move panel to the right dock", "Moves the panel that had the focus last.", {},

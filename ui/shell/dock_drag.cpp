@@ -51,6 +51,11 @@ void drawPreview(const PanelDrag& drag, const DropTarget& target, const Layout& 
     }
     setItemScope("drop");
     noteRect("Preview", rect);
+    // ImGui clips this list to the main window.
+    const Rect& second = layout.docks[static_cast<std::size_t>(Dock::Second)];
+    const bool isInSecond = second.width > 0 && target.dock == Dock::Second;
+    if (isInSecond)
+        drawList.PushClipRect({second.x, second.y}, {second.x + second.width, second.y + second.height});
     const ImVec2 from(rect.x, rect.y), to(rect.x + rect.width, rect.y + rect.height);
     drawList.AddRectFilled(from, to, packed(palette().accent, 0.22f), 3);
     drawList.AddRect(from, to, packed(palette().accent), 3, 0, 2);
@@ -64,10 +69,15 @@ void drawPreview(const PanelDrag& drag, const DropTarget& target, const Layout& 
     const float font = ImGui::GetFontSize();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const Rect shown = isInSecond ? second : Rect{0, 0, screen.x, screen.y};
     const Point pointer = pointerNow(layout);
-    const ImVec2 at(std::clamp(pointer.x + font, 0.0f, std::max(screen.x - size.x - 2 * font, 0.0f)),
-                    std::clamp(pointer.y + font, 0.0f, std::max(screen.y - 2 * font, 0.0f)));
+    const auto within = [](float wanted, float begin, float room) {
+        return std::clamp(wanted, begin, begin + std::max(room, 0.0f));
+    };
+    const ImVec2 at(within(pointer.x + font, shown.x, shown.width - size.x - 2 * font),
+                    within(pointer.y + font, shown.y, shown.height - 2 * font));
     badge(drawList, at, text.c_str(), palette().text);
+    if (isInSecond) drawList.PopClipRect();
     noteRect(text, {at.x, at.y, size.x, size.y});
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
 }

@@ -12,7 +12,9 @@
 namespace worldy {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 class NoticesTest : public testing::Test {
 protected:
@@ -69,6 +71,50 @@ TEST_F(NoticesTest, aPanelInSightTellsItsProblemItself) {
         PanelId::Sweep;
     tellOnce(notices_, workspace_, PanelId::Sweep, "The sweep has no result", "no disk");
     EXPECT_EQ(notices_.message.title, "");
+}
+
+class Alerts : public NoticesTest {
+protected:
+    // Returns the texts of the alerts after the new lines of the log.
+    std::vector<std::string> alerts() {
+        const std::size_t count = log_.moveNewLines(lines_);
+        alertOf(notices_, lines_, count);
+        std::vector<std::string> texts;
+        for (const ui::Alert& alert : notices_.alerts) texts.push_back(alert.text);
+        return texts;
+    }
+};
+
+TEST_F(Alerts, showWarningsAndErrorsThatNobodyTold) {
+    log_->info("a planet is open");
+    log_->warn("colours are unreadable");
+    log_->error("no disk");
+    EXPECT_THAT(alerts(), ElementsAre("colours are unreadable", "no disk"));
+    EXPECT_EQ(notices_.alerts[0].level, LogLevel::Warning);
+    EXPECT_EQ(notices_.alerts[1].level, LogLevel::Error);
+    log_->info("an hour later");
+    EXPECT_EQ(alerts().size(), 2u) << "old lines are shown again";
+}
+
+TEST_F(Alerts, doNotRepeatAMessageBox) {
+    tellError(notices_, {"The first failed", "no disk", ""});
+    EXPECT_THAT(alerts(), IsEmpty());
+    workspace_.panels[static_cast<std::size_t>(PanelId::Sweep)].shown = false;
+    log_->error("no chunk");
+    tellOnce(notices_, workspace_, PanelId::Sweep, "The sweep has no result", "no chunk");
+    EXPECT_THAT(alerts(), IsEmpty());
+}
+
+TEST_F(Alerts, aRepeatedProblemIsCountedAndStaysLonger) {
+    log_->warn("Settings cannot be changed during a replay");
+    alerts();
+    const double firstUntilS = notices_.alerts[0].untilS;
+    notices_.timeS += 3;
+    log_->warn("Settings cannot be changed during a replay");
+    log_->warn("Settings cannot be changed during a replay");
+    EXPECT_EQ(alerts().size(), 1u);
+    EXPECT_EQ(notices_.alerts[0].count, 3);
+    EXPECT_DOUBLE_EQ(notices_.alerts[0].untilS, firstUntilS + 3);
 }
 
 class RestoredResults : public NoticesTest {

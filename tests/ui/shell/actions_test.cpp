@@ -10,6 +10,7 @@
 #include "tests/support/action_fixture.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/temporary_folder.h"
+#include "ui/model/docking.h"
 #include "ui/shell/gamepad_actions.h"
 #include "ui/shell/help_windows.h"
 
@@ -143,6 +144,26 @@ TEST(Actions, thePanelUsedLastMovesToAnotherDock) {
     EXPECT_EQ(bench.workspace.inFront[static_cast<std::size_t>(Dock::Left)], PanelId::Log);
     actionNamed("hide_panel").act(bench.context());
     EXPECT_FALSE(isShown(bench.workspace, PanelId::Log));
+}
+
+TEST(Actions, aTabMovesAmongThoseOfItsDock) {
+    ActionBench bench;
+    const Dock dock = bench.workspace.panels[static_cast<std::size_t>(PanelId::Log)].dock;
+    const std::vector<PanelId> before = panelsIn(dock, bench.workspace);
+    ASSERT_GE(before.size(), 3u);
+    bench.menu.usedPanel = before[0];
+    EXPECT_THAT(whyNot(actionNamed("move_tab_back"), bench.context()), HasSubstr("first tab"));
+    actionNamed("move_tab_forward").act(bench.context());
+    std::vector<PanelId> now = panelsIn(dock, bench.workspace);
+    EXPECT_EQ(now[0], before[1]);
+    EXPECT_EQ(now[1], before[0]);
+    EXPECT_EQ(bench.workspace.inFront[static_cast<std::size_t>(dock)], before[0]);
+    actionNamed("move_tab_back").act(bench.context());
+    EXPECT_EQ(panelsIn(dock, bench.workspace), before);
+    bench.menu.usedPanel = before.back();
+    EXPECT_THAT(whyNot(actionNamed("move_tab_forward"), bench.context()), HasSubstr("last tab"));
+    floatPanel(before.back(), {}, bench.workspace);
+    EXPECT_THAT(whyNot(actionNamed("move_tab_back"), bench.context()), HasSubstr("floats"));
 }
 
 // The tables of the manual: what cannot be changed, the commands with their default keys, then gamepads and 3-D mice.

@@ -37,5 +37,45 @@ TEST_F(ConfirmationLine, aLongPathIsWrappedWithinTheViewport) {
     EXPECT_GT(box.height, 3 * ImGui::GetFontSize());
 }
 
+class AlertBoxes : public testing::Test {
+protected:
+    void frame(double timeS) {
+        window_.frame([&] { alertBoxes(alerts_, timeS, viewport_, viewport_.y + 20); });
+    }
+
+    PanelWindow window_{{1024, 640}};
+    Rect viewport_{300, 40, 400, 300};
+    std::vector<Alert> alerts_{{LogLevel::Warning, "The colours cannot be read", 1, 10},
+                               {LogLevel::Error, "No space is left", 1, 20}};
+};
+
+TEST_F(AlertBoxes, lieBelowEachOtherAndEnd) {
+    frame(1);
+    const Rect first = window_.find("alert 0/Box")->rect;
+    const Rect second = window_.find("alert 1/Box")->rect;
+    EXPECT_GE(first.y, viewport_.y + 20);
+    EXPECT_GE(second.y, first.y + first.height);
+    frame(15);
+    ASSERT_EQ(alerts_.size(), 1u);
+    EXPECT_EQ(alerts_[0].text, "No space is left");
+    frame(21);
+    EXPECT_TRUE(alerts_.empty());
+}
+
+TEST_F(AlertBoxes, aClickRemovesOne) {
+    frame(1);
+    window_.click("alert 0/Box", 0.5f, [&] { frame(1); });
+    ASSERT_EQ(alerts_.size(), 1u);
+    EXPECT_EQ(alerts_[0].text, "No space is left");
+}
+
+TEST_F(AlertBoxes, manyLeaveHalfOfThePictureFreeAndAreCounted) {
+    for (int i = 0; i < 30; ++i) alerts_.push_back({LogLevel::Error, "block " + std::to_string(i), 1, 20});
+    frame(1);
+    const ItemPlace* more = window_.find("more alerts/Box");
+    ASSERT_TRUE(more);
+    EXPECT_LT(more->rect.y + more->rect.height, viewport_.y + 0.75f * viewport_.height);
+}
+
 }  // namespace
 }  // namespace worldy::ui

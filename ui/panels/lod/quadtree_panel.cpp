@@ -214,10 +214,17 @@ void netMouse(const NetData& data, const Rect& area, QuadtreePanelState& state, 
     if (ImGui::IsItemDeactivated()) commands.emplace_back(SelectChunk{hit->id});
 }
 
-// Moves the selection by the keys, and keeps it in sight.
+// Moves the view by the keys.
+void panNet(const PlotKeys& keys, const Rect& area, PlanFocus& focus) {
+    const double stepPx = 0.15 * static_cast<double>(std::min(area.width, area.height));
+    focus = movedBy(netSize, focus, area, -keys.right * stepPx, keys.up * stepPx);
+}
+
+// Moves the selection by the keys, and keeps it in sight; with Shift, moves the view.
 void netKeys(const EditorView& view, const NetData& data, const Rect& area, QuadtreePanelState& state,
              Commands& commands) {
     const PlotKeys keys = takePlotKeys(PlotReads::View);
+    if (keys.withShift && (keys.right != 0 || keys.up != 0)) return panNet(keys, area, state.focus);
     const std::optional<planet::ChunkId>& selected = view.focus.selected;
     const planet::FacePoint below = planet::facePointFromDirection(glm::normalize(data.eyeM));
     if (const auto to = steppedChunk(selected, keys, below, deepestLevelOf(data.tree.shape))) {
@@ -252,7 +259,8 @@ void tellSelected(const EditorView& view, const NetData& data) {
         ImGui::TextUnformatted(hitText(data, {*view.focus.selected, told.node, told.state}).c_str());
     }
     ImGui::TextDisabled(
-        "arrows: neighbour   PageUp, PageDown: parent, child\n+ -: zoom   Home: fit   Enter: look at it");
+        "arrows: neighbour   PageUp, PageDown: parent, child\n+ -: zoom   Shift+arrows: move the view   "
+        "Home: fit   Enter: look at it");
     ImGui::EndTooltip();
 }
 

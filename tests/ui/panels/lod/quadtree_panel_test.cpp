@@ -106,6 +106,37 @@ TEST_F(QuadtreePanel, ADragMovesTheNetAndSelectsNothing) {
     EXPECT_FALSE(asked<SelectChunk>());
 }
 
+TEST_F(QuadtreePanel, ShiftAndArrowsMoveTheViewAndKeepTheSelection) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    constexpr int firstKey = 300;  // beside those that ImGui maps itself
+    for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = firstKey + key;
+    const auto type = [&](ImGuiKey key) {
+        io.KeysDown[firstKey + key] = true;
+        frame();
+        io.KeysDown[firstKey + key] = false;
+    };
+    state_.focus = {4, 0.5, 0.5};
+    pointAt({state_.area.x + state_.area.width / 2, state_.area.y + state_.area.height / 2});
+    frame();
+    press(true);
+    frame();
+    press(false);
+    frame();
+    const NetFocus before = state_.focus;
+    io.KeyShift = true;
+    type(ImGuiKey_RightArrow);
+    EXPECT_GT(state_.focus.centreX, before.centreX);
+    EXPECT_EQ(state_.focus.centreY, before.centreY);
+    EXPECT_FALSE(asked<SelectChunk>());
+    type(ImGuiKey_UpArrow);
+    EXPECT_NE(state_.focus.centreY, before.centreY);
+    EXPECT_EQ(state_.focus.zoom, before.zoom);
+    io.KeyShift = false;
+    type(ImGuiKey_LeftArrow);
+    EXPECT_TRUE(asked<SelectChunk>());
+}
+
 TEST_F(QuadtreePanel, TheWheelZoomsAboutThePointer) {
     const ImVec2 middle = middleOf(farRoot());
     const ImVec2 at(std::floor(middle.x), std::floor(middle.y));  // ImGui's pointer is on whole pixels
