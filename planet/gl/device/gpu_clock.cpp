@@ -13,7 +13,8 @@ struct FollowedClock {
     std::int64_t readAtNs = 0;
     bool isKnown = false;  // that there are timestamps, or that there are none
 };
-FollowedClock followedClock;
+// A thread that draws besides the window, such as a sweep's, follows no clock and records nothing in the window's lane.
+thread_local FollowedClock followedClock;
 
 // Is never destroyed, because contexts may end after the static objects of the program.
 SpanLane& gpuLane() {

@@ -1,5 +1,5 @@
-// Places GPU timestamps on the clock of spans (planet/spans/span_recorder.h). Call it with a current context, always from the
-// same thread.
+// Places GPU timestamps on the clock of spans (planet/spans/span_recorder.h). Call it with a current context. One thread, that
+// of the window, follows the GPU's clock; spans of other threads' contexts are not recorded.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,14 @@ struct GpuClockReading {
 // Reads both clocks, several times, and returns the most exact reading; nothing if the context has no timestamps.
 std::optional<GpuClockReading> readGpuClock();
 
-// Reads the clocks if spans are recorded and the last reading is more than a second old. Call it once per frame.
+// Reads the clocks if spans are recorded and the last reading is more than a second old. Call it once per frame, always from the
+// same thread.
 void followGpuClock();
-// Returns the last reading of followGpuClock(); nothing before the first.
+// Returns the calling thread's last reading of followGpuClock(); nothing before the first.
 const std::optional<GpuClockReading>& gpuClock();
 
-// Records the time between two timestamps of GL_TIMESTAMP in the lane "GPU", if spans are recorded and the clock is known.
-// name: a string literal.
+// Records the time between two timestamps of GL_TIMESTAMP in the lane "GPU", if spans are recorded and the calling thread
+// follows the clock. name: a string literal.
 void recordGpuSpan(const char* name, std::uint64_t beginTimestamp, std::uint64_t endTimestamp);
 
 }  // namespace planet::gl

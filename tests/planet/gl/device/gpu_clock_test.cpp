@@ -1,6 +1,7 @@
 #include "planet/gl/device/gpu_clock.h"
 
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "planet/gl/device/gpu_timer.h"
@@ -50,6 +51,20 @@ TEST_F(GpuClock, placesAMeasurementBetweenTheTimesBeforeAndAfterIt) {
     const std::int64_t errorNs = gpuClock()->errorNs + 1000;
     EXPECT_GE(spans[0].beginNs, beforeNs - errorNs);
     EXPECT_LE(spans[0].endNs, afterNs + errorNs);
+}
+
+// A lane has one writer: a sweep draws on a thread of its own while the window draws.
+TEST_F(GpuClock, recordsNothingOfAThreadThatDoesNotFollowTheClock) {
+    if (!readGpuClock()) GTEST_SKIP() << "the driver has no timestamps";
+    gpuSpans();
+    recordSpans(true);
+    followGpuClock();
+    std::thread([] { recordGpuSpan("sweep", 1000, 2000); }).join();
+    recordGpuSpan("window", 1000, 2000);
+    recordSpans(false);
+    const std::vector<Span> spans = gpuSpans();
+    ASSERT_EQ(spans.size(), 1u);
+    EXPECT_STREQ(spans[0].name, "window");
 }
 
 TEST_F(GpuClock, recordsNothingWhileSpansAreNotRecorded) {
