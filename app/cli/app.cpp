@@ -98,6 +98,7 @@ struct Resumed {
     LastSession session;
     KeptResults results;
     std::string problem;  // why it or a part of it is not opened, sentences; empty: it is
+    bool isUnopened = false;  // its planet cannot be opened, so that another one is shown
 
     void add(const std::string& sentence) { problem += (problem.empty() ? "" : "\n") + sentence; }
 };
@@ -154,7 +155,10 @@ Result<CheckedData> dataToShow(const AppOptions& options, const Settings& settin
         Result<CheckedData> again = dataSetOf(resumed).and_then(checked);
         if (again) return again;
         resumed = {};
-        resumed.add(fmt::format("{}; the planet of the last session is not opened.", again.error().message));
+        resumed.isUnopened = true;
+        resumed.add(fmt::format("{}; the planet of the last session is not opened. The next start tries it "
+                                "again, unless you open another file.",
+                                again.error().message));
     }
     return chosenDataSet(options, settings).and_then(checked);
 }
@@ -208,13 +212,15 @@ int runWindow(Window& window, const AppOptions& options, CheckedData data, const
         editor.resume({.trace = options.file}, {}, {});
     else
         editor.resume(resumed.session, resumed.results, resumed.problem);
+    // A planet that only stands in for that of the last session does not replace it.
+    const fs::path standIn = resumed.isUnopened ? session.data.source : fs::path{};
     StateKeeper keeper(open);
     bool isFailureTold = false;
     const auto keep = [&] {
         Settings settings = editor.settings();
         settings.windowWidthPx = static_cast<int>(window.width());
         settings.windowHeightPx = static_cast<int>(window.height());
-        const bool isShown = shownScene(session) != nullptr;
+        const bool isShown = shownScene(session) && (standIn.empty() || session.data.source != standIn);
         const std::optional<KeptResults> results = editor.keptResults();
         const Result<void> kept =
             keeper.keep(settings, isShown ? lastSessionText(editor.lastSession(session)) : "",

@@ -71,5 +71,18 @@ TEST_F(SessionWindowTest, aLastSessionThatCannotBeOpenedIsReportedAndKept) {
                 AllOf(HasSubstr("session.toml: line 1"), HasSubstr("the last session is not opened")));
 }
 
+// A first look at the planet that comes with Worldy stands in for it.
+TEST_F(SessionWindowTest, aPlanetThatIsAwayIsTriedAgainAtTheNextStart) {
+    const std::filesystem::path file = folder.path() / "config" / "worldy" / "session.toml";
+    std::filesystem::create_directories(file.parent_path());
+    const std::string text = "file = 'away.chk'\nruler = ['46.4,6.9,410']\n";
+    std::ofstream(file) << text;
+    drive("", R"sh(
+expect shown message/Text; key Escape
+patience=600; expect counts triangles -gt 0; settle
+)sh");
+    EXPECT_EQ(contentOf(file), text);
+}
+
 }  // namespace
 }  // namespace worldy
