@@ -86,9 +86,10 @@ struct CheckedData {
 // Reports bad data before a window opens.
 Result<CheckedData> checked(const DataSet& set) {
     if (set.needsBake) {
-        return planet::openHeightSource(set.source, {}).map([&](const planet::HeightSource& source) {
-            return CheckedData{set, source};
-        });
+        return planet::openHeightSource(set.source, set.sourceSettings)
+            .map([&](const planet::HeightSource& source) {
+                return CheckedData{set, source};
+            });
     }
     return planet::ChunkFile::open(set.chunkFile).map([&](const auto&) { return CheckedData{set, {}}; });
 }
@@ -97,7 +98,7 @@ Result<CheckedData> checked(const DataSet& set) {
 struct Resumed {
     LastSession session;
     KeptResults results;
-    std::string problem;  // why it or a part of it is not opened, sentences; empty: it is
+    std::string problem;      // why it or a part of it is not opened, sentences; empty: it is
     bool isUnopened = false;  // its planet cannot be opened, so that another one is shown
 
     void add(const std::string& sentence) { problem += (problem.empty() ? "" : "\n") + sentence; }
@@ -136,7 +137,7 @@ std::string whyNotBake(const fs::path& source, const fs::path& bake) {
 // Finds the data set of the last session with the bake that was shown.
 Result<DataSet> dataSetOf(Resumed& resumed) {
     const LastSession& last = resumed.session;
-    Result<DataSet> set = findDataSet(last.file, {}, {}, std::nullopt);
+    Result<DataSet> set = findDataSet(last.file, {}, last.sourceSettings, last.colour);
     if (!set || last.bake.empty() || last.bake == set->chunkFile) return set;
     if (const std::string whyNot = whyNotBake(last.file, last.bake); !whyNot.empty()) {
         resumed.add(
@@ -156,9 +157,10 @@ Result<CheckedData> dataToShow(const AppOptions& options, const Settings& settin
         if (again) return again;
         resumed = {};
         resumed.isUnopened = true;
-        resumed.add(fmt::format("{}; the planet of the last session is not opened. The next start tries it "
-                                "again, unless you open another file.",
-                                again.error().message));
+        resumed.add(
+            fmt::format("{}; the planet of the last session is not opened. The next start tries it "
+                        "again, unless you open another file.",
+                        again.error().message));
     }
     return chosenDataSet(options, settings).and_then(checked);
 }

@@ -154,13 +154,13 @@ fs::path earlierBakeOf(const fs::path& source, const planet::BakeSettings& setti
     return newest == found.end() ? fs::path() : newest->second;
 }
 
-DataSet firstLookOf(const DataSet& whole, const planet::HeightSourceSettings& sourceSettings) {
+DataSet firstLookOf(const DataSet& whole) {
     DataSet look = whole;
     look.settings.faceSize = firstLookFaceSize;
     look.settings.colour.faceSize = firstLookFaceSize;
     look.settings.debugLevelsFolder.clear();
     look.settings.reuse.clear();
-    look.chunkFile = cachedBakeOf(look.source, look.settings, sourceSettings, look.bakedColour);
+    look.chunkFile = cachedBakeOf(look.source, look.settings, look.sourceSettings, look.bakedColour);
     look.needsBake = !opensWhole(look.chunkFile);
     return look;
 }
@@ -187,7 +187,8 @@ planet::Result<DataSet> findDataSet(const fs::path& named, const planet::BakeSet
     DataSet set{.source = source->source,
                 .chunkFile = {},
                 .colourImage = ownColourImage(source->source),
-                .settings = source->settings};
+                .settings = source->settings,
+                .sourceSettings = sourceSettings};
     // The layers of colour of a world file are baked, and the image beside it is only laid over the planet.
     const bool hasLayers = planet::hasColourLayers(set.source);
     set.bakedColour = colour.value_or(hasLayers ? set.source : set.colourImage);

@@ -18,6 +18,7 @@ struct DataSet {
     std::filesystem::path colourImage;  // the image to draw; empty if there is none
     bool needsBake = false;
     planet::BakeSettings settings{};  // settings for the bake
+    planet::HeightSourceSettings sourceSettings{};
     std::filesystem::path
         bakedColour{};  // the image of the colour tiles; empty if there is none or, for a chunk
                         // file that was opened directly, if the image is not found
@@ -49,7 +50,7 @@ std::filesystem::path cachedBakeOf(const std::filesystem::path& source, const pl
 // The face size of a first look, a coarse bake that is shown until the whole one is there.
 inline constexpr int firstLookFaceSize = 513;
 // Returns the first look at a data set that needs a bake, in the cache too.
-DataSet firstLookOf(const DataSet& whole, const planet::HeightSourceSettings& sourceSettings = {});
+DataSet firstLookOf(const DataSet& whole);
 
 // Returns the newest bake in the cache of a source of this name with the same chunk size and radius that says what it was
 // baked from, so that a bake of the changed source can copy from it; empty if there is none.

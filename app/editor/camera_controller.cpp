@@ -129,8 +129,9 @@ void execute(CameraController& camera, const ui::CameraCommand& command, const C
 void inspect(CameraController& camera, const Camera& place, const planet::View& lodView,
              const CameraContext& context) {
     if (!camera.beforeInspection)
-        camera.beforeInspection = BeforeInspection{camera.rig->camera, camera.lodView, camera.lodFrozen,
-                                                   context.replay && context.replay->playing};
+        camera.beforeInspection =
+            BeforeInspection{camera.rig->camera, camera.lodView, camera.lodFrozen,
+                             context.replay && context.replay->playing, context.settings.view.camera.mode};
     context.popSide = PopSide::Live;
     placeRig(*camera.rig, place, context.settings.view.camera);
     if (context.replay) {
@@ -140,6 +141,7 @@ void inspect(CameraController& camera, const Camera& place, const planet::View& 
     camera.lodFrozen = true;
     if (camera.lodView == lodView) return;
     camera.lodView = lodView;
+    camera.lodViewPlaced = true;
     context.stepOnce = true;  // also selects for it while frames are paused
 }
 
@@ -148,11 +150,13 @@ void endInspection(CameraController& camera, const CameraContext& context) {
     if (!before) return;
     context.popSide = PopSide::Live;
     moveCamera(camera, before->camera, context.settings.view.camera);
+    if (before->mode == CameraMode::FollowFlight) goOnWithFlight(*camera.rig, context.settings.view.camera);
     if (context.replay) {
         context.replay->playing = before->replayPlaying;
         return;
     }
     camera.lodView = before->lodView;
+    camera.lodViewPlaced = true;
     camera.lodFrozen = before->lodFrozen;
     context.stepOnce = true;
 }
@@ -241,10 +245,12 @@ bool hasDeviceInput(const CameraController& camera, const Window& window) {
 void followCamera(CameraController& camera, const Viewport& viewport, const CameraSettings& settings,
                   double passedS) {
     const glm::dvec3 fromM = camera.lodView.eyeM;
+    const bool lodViewPlaced = std::exchange(camera.lodViewPlaced, false);
     const bool placed = takeJump(*camera.rig);
     if (!camera.lodFrozen) camera.lodView = mainView(camera, viewport, settings);
     const glm::dvec3& toM = camera.lodView.eyeM;
-    camera.jumped = toM != fromM && (placed || isCameraJump(fromM, toM, camera.radiusM, passedS));
+    camera.jumped =
+        lodViewPlaced || (toM != fromM && (placed || isCameraJump(fromM, toM, camera.radiusM, passedS)));
 }
 
 planet::View mainView(const CameraController& camera, const Viewport& viewport,

@@ -25,6 +25,7 @@ struct BeforeInspection {
     planet::View lodView;
     bool lodFrozen = false;
     bool replayPlaying = false;
+    CameraMode mode = CameraMode::Fly;
 };
 
 struct CameraController {
@@ -34,7 +35,8 @@ struct CameraController {
     double radiusM = 0;    // of the planet below the cameras
     planet::View lodView;  // follows the camera unless frozen
     bool lodFrozen = false;
-    bool jumped = false;  // in the last frame; for measuring pops
+    bool lodViewPlaced = false;  // by an inspection, since followCamera()
+    bool jumped = false;         // in the last frame; for measuring pops
     std::optional<BeforeInspection> beforeInspection;
     Bookmarks bookmarks;
     std::vector<std::filesystem::path> flights;  // the flights that can be followed

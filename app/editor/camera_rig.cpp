@@ -269,6 +269,12 @@ planet::Result<void> startFlight(CameraRig& rig, const fs::path& file, CameraSet
     return {};
 }
 
+void goOnWithFlight(CameraRig& rig, CameraSettings& settings) {
+    if (!rig.flight) return;
+    rig.flight->from.reset();
+    rig.mode = settings.mode = CameraMode::FollowFlight;
+}
+
 void moveFlight(CameraRig& rig, double timeS) {
     if (!rig.flight) return;
     rig.flight->timeS = std::clamp(timeS, 0.0, durationS(rig.flight->path));

@@ -82,6 +82,8 @@ bool takeJump(CameraRig& rig);
 
 // Follows a flight from its start.
 planet::Result<void> startFlight(CameraRig& rig, const std::filesystem::path& file, CameraSettings& settings);
+// Follows the kept flight again from where it was, without a transition; does nothing if there is none.
+void goOnWithFlight(CameraRig& rig, CameraSettings& settings);
 void moveFlight(CameraRig& rig, double timeS);  // clamped to the flight
 void pauseFlight(CameraRig& rig, bool paused);
 

@@ -183,7 +183,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
         showBriefly(notices_, fmt::format("Field of view {:.1f}°", fovDeg));
     if (const auto click = std::exchange(window_.menu.mouse, std::nullopt))
         window.pressMouse({click->x, click->y}, click->button);
-    if (const std::string why = std::exchange(window_.menu.refused, {}); !why.empty()) show(notices_, why);
+    if (const std::string why = std::exchange(window_.menu.refused, {}); !why.empty()) refuse(notices_, why);
     // A replay's settings are not the user's, so they are not recorded for undo.
     if (!replaying())
         settings_.undo.record(before, settings_.settings.view, ImGui::IsAnyItemActive(), frames_.timeS);
@@ -234,15 +234,22 @@ std::optional<KeptResults> Editor::keptResults() const {
 }
 
 LastSession Editor::lastSession(const Session& session) const {
-    LastSession last{.file = session.data.source};
+    const OpenPlanet* const open = shownPlanet(session);
+    LastSession last{.file = (open ? open->data : session.data).source};
     // The next start may be in another folder. The text of a terrain is no path.
     if (!planet::isTerrainText(last.file)) last.file = std::filesystem::absolute(last.file);
     if (camera_.rig) last.camera = roundedPose(poseOf(camera_.rig->camera, camera_.radiusM));
-    if (files_.trace.document && !files_.trace.isLive) last.trace = files_.trace.document->file();
-    if (const OpenPlanet* const open = shownPlanet(session)) {
+    if (files_.trace.document && !files_.trace.isLive) {
+        last.trace = files_.trace.document->file();
+        last.traceFrame = files_.trace.playback.frame;
+    }
+    if (open) {
         const DataSet& data = open->data;
-        if (!open->isFirstLook && data.chunkFile != data.source)
+        if (!open->isFirstLook && data.chunkFile != data.source) {
             last.bake = std::filesystem::absolute(data.chunkFile);
+            last.sourceSettings = open->baked.sourceSettings;
+            last.colour = data.bakedColour;
+        }
         last.ruler = rulerPlaces(instruments_.ruler, open->scene.planet->tree().shape.radiusM);
         if (compare_.other) last.compare = lastComparisonOf(*compare_.other, *open);
     }
@@ -254,7 +261,8 @@ LastSession Editor::lastSession(const Session& session) const {
 
 void Editor::takeUpSession(const Session& session, ui::Commands& commands) {
     LastSession& last = files_.atStart;
-    if (!last.trace.empty()) commands.push_back(ui::OpenTrace{std::exchange(last.trace, {})});
+    if (!last.trace.empty())
+        commands.push_back(ui::OpenTrace{std::exchange(last.trace, {}), true, last.traceFrame});
     if (!camera_.rig || !shownScene(session)) return;
     if (last.camera) commands.push_back(ui::MoveCamera{*std::exchange(last.camera, {})});
     const OpenPlanet& open = *shownPlanet(session);

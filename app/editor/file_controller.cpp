@@ -75,11 +75,6 @@ void open(FileController& files, const std::filesystem::path& file, const FileCo
     files.opening = file;  // its bake may still fail
 }
 
-void ask(ui::OpenDialogState& dialog, bool forColours) {
-    dialog.opening = true;
-    dialog.forColours = forColours;
-}
-
 }  // namespace
 
 FileController openFileController() {
@@ -93,8 +88,10 @@ void execute(FileController& files, const ui::FileCommand& command, const FileCo
              Notices& notices, ui::Commands& next) {
     std::visit(Overloaded{
                    [&](const ui::OpenFile& file) { open(files, file.file, context, notices, next); },
-                   [&](const ui::AskForFile&) { ask(files.dialog, false); },
-                   [&](const ui::AskForColourImage&) { ask(files.dialog, true); },
+                   [&](const ui::AskForFile& asked) {
+                       files.dialog.opening = true;
+                       files.dialog.purpose = asked.purpose;
+                   },
                },
                command);
 }

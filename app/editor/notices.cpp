@@ -14,6 +14,10 @@ void show(Notices& notices, const std::string& text) {
     notices.confirmation = {text, notices.timeS + confirmationS};
 }
 
+void refuse(Notices& notices, const std::string& why) {
+    notices.alerts.push_back({LogLevel::Warning, why, 1, notices.timeS + confirmationS});
+}
+
 void showBriefly(Notices& notices, const std::string& text) {
     constexpr double brieflyS = 1.5;
     notices.confirmation = {text, notices.timeS + brieflyS};

@@ -31,7 +31,9 @@ inline constexpr double alertS = 12;        // how long an alert is shown
 void showBriefly(Notices& notices, const std::string& text);
 // Shows in the viewport for confirmationS that a request is done.
 void show(Notices& notices, const std::string& text);
-// Does the same and writes it to the log. What was saved is told with its whole path.
+// Shows in the viewport for confirmationS, as a warning, why a request is refused.
+void refuse(Notices& notices, const std::string& why);
+// Does the same as show() and writes it to the log. What was saved is told with its whole path.
 void confirm(Notices& notices, const std::string& text);
 // Shows a message box about an error that is in the log already. If one is open, the text is added to it, once.
 void showError(Notices& notices, ui::Message message);

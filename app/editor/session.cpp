@@ -53,6 +53,7 @@ OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
     open.scene.renderer.chunks().setAirInBackground(true);
     open.baked.source =
         data.source != data.chunkFile ? data.source : sourceOf(open.scene.planet->file().info());
+    open.baked.sourceSettings = data.sourceSettings;
     open.sourceIsThere = planet::heightSourceExists(open.baked.source);
     addColours(open.scene.planet->file().info(), data, open.baked);
     return open;
@@ -138,7 +139,7 @@ void launchWaitingBake(Session& session) {
     fs::create_directories(bake.data.chunkFile.parent_path(), status);
     std::optional<FirstLook> firstLook;
     if (bake.needed) {
-        bake.firstLook = firstLookOf(bake.data, bake.request.sourceSettings);
+        bake.firstLook = firstLookOf(bake.data);
         if (bake.firstLook->needsBake)
             firstLook = {.settings = bake.firstLook->settings, .output = bake.firstLook->chunkFile};
     }
@@ -341,6 +342,7 @@ void startBake(Session& session, const BakeRequest& request, const Log& log) {
 void startBake(Session& session, const Log& log) {
     BakeRequest request;
     request.source = session.data.source;
+    request.sourceSettings = session.data.sourceSettings;
     request.settings = session.data.settings;
     request.colour = session.data.bakedColour;
     startBake(session, request, log);
@@ -355,7 +357,10 @@ void openBake(Session& session, const BakeRequest& request, const fs::path& chun
     }
     DataSet data = session.data;
     data.chunkFile = chunkFile;
-    if (!request.source.empty()) data.source = request.source;
+    if (!request.source.empty()) {
+        data.source = request.source;
+        data.sourceSettings = request.sourceSettings;
+    }
     Result<OpenPlanet> open = openPlanet(session, data, settings, log);
     if (!open && planet::heightSourceExists(request.source)) return startBake(session, request, log);
     if (!open) {
@@ -365,7 +370,6 @@ void openBake(Session& session, const BakeRequest& request, const fs::path& chun
     }
     if (!request.source.empty()) {
         open->baked.source = request.source;
-        open->baked.sourceSettings = request.sourceSettings;
         open->sourceIsThere = planet::heightSourceExists(request.source);
     }
     show(session, std::move(*open), true);

@@ -49,6 +49,16 @@ void jumpTo(TraceController& controller, std::uint64_t frame) {
     if (after != samples.begin()) controller.playback.timeS = std::prev(after)->timeS;
 }
 
+// Shows the first frame that draws something: an engine may load for many frames before.
+void beginAtADrawnFrame(TraceController& controller) {
+    if (!controller.history || !controller.history->isComplete) return;
+    const TraceHistory& history = *controller.history;
+    for (std::size_t i = 0; i < history.samples.size(); ++i)
+        for (const auto& [view, samples] : history.views)
+            if (i < samples.size() && samples[i].drawn > 0)
+                return jumpTo(controller, history.samples[i].frame);
+}
+
 std::uint64_t shownFrame(const TraceController& controller) {
     return controller.frame ? controller.frame->frame.number : controller.playback.frame;
 }
@@ -186,6 +196,7 @@ void advanceTrace(TraceController& controller, double secondsSinceLast, const Lo
     play(controller, secondsSinceLast);
     controller.frame = controller.document->frame();
     controller.history = controller.document->history();
+    if (!controller.isLive && controller.playback.frame == 0) beginAtADrawnFrame(controller);
     const std::string problem = controller.document->problem();
     if (problem == controller.reported) return;
     controller.reported = problem;
@@ -199,7 +210,8 @@ void execute(TraceController& controller, const ui::TraceCommand& command, Works
             [&](const ui::OpenTrace& open) {
                 if (const Result<void> opened = openTrace(controller, open.file); !opened)
                     return tellCannotOpen(notices, open.file, opened.error());
-                showPanels(workspace);
+                if (open.frame > 0) showFrame(controller, open.frame);
+                if (!open.isResumed) showPanels(workspace);
                 confirm(notices, fmt::format("Trace {} opened", open.file.string()));
             },
             [&](const ui::AttachTrace& attach) {

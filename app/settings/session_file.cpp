@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cfloat>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -69,6 +71,41 @@ Result<LastComparison> readComparison(const fs::path& file, const toml::node& no
     return compare;
 }
 
+Result<void> readSourceEntry(const fs::path& file, std::string_view key, const toml::node& node,
+                             planet::HeightSourceSettings& source) {
+    const auto number = [&](std::optional<double>& value, const NumberRange& range) -> Result<void> {
+        TRY_ASSIGN(value, readNumber(file, key, node, range));
+        return {};
+    };
+    const auto integer = [&](std::optional<int>& value, const NumberRange& range) -> Result<void> {
+        TRY_ASSIGN(const auto read, readInteger(file, key, node, range));
+        value = static_cast<int>(read);
+        return {};
+    };
+    const auto isOn = [&](bool& value) -> Result<void> {
+        TRY_ASSIGN(value, readBool(file, key, node));
+        return {};
+    };
+    if (key == "metres_per_unit") return number(source.metresPerUnit, {-1e6, 1e6, "m"});
+    if (key == "offset_m") return number(source.offsetM, {-1e7, 1e7, "m"});
+    if (key == "no_data") return number(source.noDataValue, {-DBL_MAX, DBL_MAX, ""});
+    if (key == "raw_size") return integer(source.rawSize, {2, 1 << 22, "samples"});
+    if (key == "raw_bits") return integer(source.rawBits, {8, 16, "bits"});
+    if (key == "raw_signed") return isOn(source.rawSigned);
+    if (key == "raw_big_endian") return isOn(source.rawBigEndian);
+    if (key == "skip_broken") return isOn(source.skipBroken);
+    if (key != "fill_m") return wrong(file, node, fmt::format("source.{} is unknown", key));
+    TRY_ASSIGN(source.fillM, readNumber(file, key, node, {-1e7, 1e7, "m"}));
+    return {};
+}
+
+Result<void> readSource(const fs::path& file, const toml::node& node, planet::HeightSourceSettings& source) {
+    const toml::table* const table = node.as_table();
+    if (!table) return wrong(file, node, "source: expected a table");
+    for (const auto& [key, value] : *table) TRY(readSourceEntry(file, key.str(), value, source));
+    return {};
+}
+
 Result<void> readEntry(const fs::path& file, std::string_view key, const toml::node& node,
                        LastSession& session) {
     if (key == "ruler") return readRuler(file, node, session);
@@ -80,12 +117,23 @@ Result<void> readEntry(const fs::path& file, std::string_view key, const toml::n
         TRY_ASSIGN(session.compare, readComparison(file, node));
         return {};
     }
-    if (key != "file" && key != "bake" && key != "trace") {
+    if (key == "trace_frame") {
+        TRY_ASSIGN(const std::int64_t frame, readInteger(file, key, node, {0, 1e15, ""}));
+        session.traceFrame = static_cast<std::uint64_t>(frame);
+        return {};
+    }
+    if (key == "source") return readSource(file, node, session.sourceSettings);
+    if (key != "file" && key != "bake" && key != "trace" && key != "colour") {
         return wrong(file, node,
-                     fmt::format("{} is unknown; expected file, bake, camera, trace, ruler or compare", key));
+                     fmt::format("{} is unknown; expected file, bake, colour, camera, trace, trace_frame, "
+                                 "ruler, source or compare",
+                                 key));
     }
     TRY_ASSIGN(const std::string text, readText(file, key, node));
-    (key == "file" ? session.file : key == "bake" ? session.bake : session.trace) = text;
+    if (key == "colour")
+        session.colour = text;
+    else
+        (key == "file" ? session.file : key == "bake" ? session.bake : session.trace) = text;
     return {};
 }
 
@@ -114,16 +162,46 @@ Result<LastSession> loadLastSession(const fs::path& file) {
     return session;
 }
 
+namespace {
+
+std::string sourceText(const planet::HeightSourceSettings& source) {
+    std::string text;
+    const auto add = [&](std::string_view key, const auto& value) {
+        text += fmt::format("{} = {}\n", key, value);
+    };
+    // TOML's numbers with a fraction need the point.
+    const auto number = [](double value) {
+        std::ostringstream stream;
+        stream << toml::value<double>(value);
+        return stream.str();
+    };
+    if (source.metresPerUnit) add("metres_per_unit", number(*source.metresPerUnit));
+    if (source.offsetM) add("offset_m", number(*source.offsetM));
+    if (source.noDataValue) add("no_data", number(*source.noDataValue));
+    if (source.fillM != 0) add("fill_m", number(source.fillM));
+    if (source.rawSize) add("raw_size", *source.rawSize);
+    if (source.rawBits) add("raw_bits", *source.rawBits);
+    if (source.rawSigned) add("raw_signed", true);
+    if (source.rawBigEndian) add("raw_big_endian", true);
+    if (source.skipBroken) add("skip_broken", true);
+    return text.empty() ? text : "\n[source]\n" + text;
+}
+
+}  // namespace
+
 std::string lastSessionText(const LastSession& session) {
     std::string text = "# What Worldy goes on with when it starts without a file.\n";
     if (!session.file.empty()) text += line("file", session.file.string());
     if (!session.bake.empty()) text += line("bake", session.bake.string());
+    if (session.colour) text += line("colour", session.colour->string());
     if (session.camera) text += line("camera", cameraText(*session.camera));
     if (!session.trace.empty()) text += line("trace", session.trace.string());
+    if (session.traceFrame > 0) text += fmt::format("trace_frame = {}\n", session.traceFrame);
     std::vector<std::string> ends;
     for (const planet::CameraPose& end : session.ruler)
         ends.push_back(fmt::format("{},{},{}", end.latitudeDeg, end.longitudeDeg, end.altitudeM));
     if (!ends.empty()) text += line("ruler", ends);
+    text += sourceText(session.sourceSettings);
     if (!session.compare) return text;
     text += "\n[compare]\n";
     if (!session.compare->file.empty()) text += line("file", session.compare->file.string());

@@ -55,7 +55,9 @@ public:
                 return tl::unexpected(found.error());
         }
         for (;;) {
-            if (const auto found = frames_.lower_bound(frame); found != frames_.end()) return found->second;
+            // A kept frame after this one is not the next one until the decoder has passed this one.
+            const auto found = frames_.lower_bound(frame);
+            if (found != frames_.end() && (found->first == frame || last_ >= frame)) return found->second;
             const Result<bool> more = file_.next(sink);
             if (!more) {
                 last_ = 0;

@@ -303,7 +303,8 @@ void secondColumn(const char* label) {
     const float right = ImGui::GetWindowContentRegionMax().x;
     const float column = left + right * 0.5f;
     const float last = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetScrollX();
-    if (last < column && column + checkboxWidth(label) <= right) ImGui::SameLine(column);
+    if (last + ImGui::GetStyle().ItemSpacing.x <= column && column + checkboxWidth(label) <= right)
+        ImGui::SameLine(column);
 }
 
 void sameLineIfRoom(float width) {

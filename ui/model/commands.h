@@ -120,9 +120,11 @@ using FrameCommand = std::variant<PauseFrames, StepFrame, DrawAtFullSpeed, Recor
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot
     std::filesystem::path file;
 };
-struct AskForFile {};         // shows the dialog that asks for a file to open
-struct AskForColourImage {};  // shows the same dialog for the Bake panel's colour image
-using FileCommand = std::variant<OpenFile, AskForFile, AskForColourImage>;
+enum class FilePurpose : std::uint8_t { Open, BakedColours, SideB };
+struct AskForFile {  // shows the dialog that asks for a file
+    FilePurpose purpose = FilePurpose::Open;
+};
+using FileCommand = std::variant<OpenFile, AskForFile>;
 
 // Bakes.
 struct ChooseColourImage {  // puts the image into the Bake panel
@@ -321,6 +323,8 @@ using SourceCommand = std::variant<ReadSource, EditLayers, RevertLayers, BakeLay
 // Traces of other engines (planet/trace).
 struct OpenTrace {  // a file; replaces the trace that is shown
     std::filesystem::path file;
+    bool isResumed = false;   // it goes on with the last session, which keeps the panels as they are
+    std::uint64_t frame = 0;  // to show; 0: the first one that draws something
 };
 struct AttachTrace {  // to an engine that listens on this machine
     int port = 9910;  // [1, 65535]

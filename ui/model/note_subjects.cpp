@@ -177,25 +177,11 @@ NoteSubject precisionSubject(const EditorView& view, double exaggeration) {
 
 }  // namespace
 
-glm::dvec3 groundInMiddle(const planet::View& view, const planet::ChunkTree& tree) {
+glm::dvec3 groundInMiddle(const planet::View& view, const planet::ChunkTree& tree,
+                          std::span<const planet::DrawItem> drawn) {
+    if (const auto hit = planet::pickSurface(tree, drawn, view.eyeM, -view.back)) return hit->positionM;
     const glm::dvec3 below = glm::normalize(view.eyeM);
-    const auto groundM = [&](const glm::dvec3& direction) {
-        return tree.shape.radiusM + planet::sampledHeightM(tree, direction);
-    };
-    // The ray meets the sphere of the ground's height there, which is found in a few steps.
-    const glm::dvec3 ahead = -view.back;
-    const double along = glm::dot(view.eyeM, ahead);
-    const double eye2 = glm::dot(view.eyeM, view.eyeM);
-    glm::dvec3 place = below * groundM(below);
-    double radiusM = groundM(below);
-    for (int step = 0; step < 8; ++step) {
-        const double inner = along * along - eye2 + radiusM * radiusM;
-        const double distanceM = -along - std::sqrt(std::max(inner, 0.0));
-        if (inner < 0 || distanceM <= 0) return below * groundM(below);
-        place = view.eyeM + distanceM * ahead;
-        radiusM = groundM(place);
-    }
-    return glm::normalize(place) * radiusM;
+    return below * (tree.shape.radiusM + planet::sampledHeightM(tree, below));
 }
 
 glm::dvec3 placeOfNote(const Note& note, double radiusM, double exaggeration) {
@@ -233,7 +219,8 @@ bool isCoveredPin(const planet::ChunkTree& tree, std::span<const planet::DrawIte
 
 std::vector<NoteSubject> noteSubjects(const EditorView& view, double exaggeration) {
     if (!view.planet) return {};
-    const glm::dvec3 middle = groundInMiddle(view.camera.renderView, view.planet->tree());
+    const glm::dvec3 middle =
+        groundInMiddle(view.camera.renderView, view.planet->tree(), view.planet->selection().draw);
     std::vector<NoteSubject> subjects = {{"this view", noteAt(view, middle, exaggeration)}};
     subjects.push_back(chunkSubject(view, exaggeration));
     subjects.push_back(errorSubject(view, exaggeration));

@@ -21,9 +21,10 @@ struct NoteSubject {
 // exaggeration: of the drawn heights, > 0.
 std::vector<NoteSubject> noteSubjects(const EditorView& view, double exaggeration);
 
-// Returns the place in the middle of a view on the ground, or the place below the camera if the view shows sky there.
+// Returns the place in the middle of a view on the drawn ground, or the place below the camera if the view shows sky there.
 // Metres from the planet's centre.
-glm::dvec3 groundInMiddle(const planet::View& view, const planet::ChunkTree& tree);
+glm::dvec3 groundInMiddle(const planet::View& view, const planet::ChunkTree& tree,
+                          std::span<const planet::DrawItem> drawn);
 
 // Returns a note's place, metres from the planet's centre.
 glm::dvec3 placeOfNote(const Note& note, double radiusM, double exaggeration);

@@ -93,11 +93,33 @@ bool accept(OpenDialogState& state, Commands& commands) {
         listFolder(path, state);
         return false;
     }
-    if (state.forColours)
-        commands.push_back(ChooseColourImage{path});
-    else
-        commands.push_back(OpenFile{path});
+    switch (state.purpose) {
+        case FilePurpose::Open:
+            commands.push_back(OpenFile{path});
+            break;
+        case FilePurpose::BakedColours:
+            commands.push_back(ChooseColourImage{path});
+            break;
+        case FilePurpose::SideB:
+            commands.push_back(StartCompare{StartCompare::With::File, {}, path});
+            break;
+    }
     return true;
+}
+
+// The texts of the dialog for a purpose.
+struct DialogTexts {
+    const char* title;
+    const char* hint;
+    const char* accept;
+};
+DialogTexts textsFor(FilePurpose purpose) {
+    if (purpose == FilePurpose::BakedColours)
+        return {"Choose a colour image", "Path of a colour image or of one of six faces", "Choose"};
+    if (purpose == FilePurpose::SideB)
+        return {"Choose a planet as B", "Path of a chunk file or of a source that is baked", "Choose"};
+    return {"Open a file", "Path of a chunk file, an elevation image or raster, a world file or a cube face",
+            "Open"};
 }
 
 }  // namespace
@@ -144,7 +166,8 @@ void openDialog(OpenDialogState& state, Commands& commands) {
     }
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, ImGui::GetMainViewport()->WorkSize);
-    const std::string title = std::string(state.forColours ? "Choose a colour image" : "Open a file") + popup;
+    const DialogTexts texts = textsFor(state.purpose);
+    const std::string title = std::string(texts.title) + popup;
     if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
         return;
@@ -159,14 +182,11 @@ void openDialog(OpenDialogState& state, Commands& commands) {
         ImGui::TextDisabled("This folder contains no file that Worldy can open.");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    accepted |= ImGui::InputTextWithHint(
-        "##path",
-        state.forColours ? "Path of a colour image or of one of six faces"
-                         : "Path of a chunk file, an elevation image or raster, a world file or a cube face",
-        state.path.data(), state.path.size(),
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    accepted |=
+        ImGui::InputTextWithHint("##path", texts.hint, state.path.data(), state.path.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     noteItem("Path");
-    accepted |= ImGui::Button(state.forColours ? "Choose" : "Open");
+    accepted |= ImGui::Button(texts.accept);
     ImGui::SameLine();
     // Esc closes popups, but a text field consumes it, so it is handled here.
     const bool left =

@@ -17,8 +17,8 @@ struct OpenDialogEntry {
 };
 
 struct OpenDialogState {
-    bool opening = false;     // shows the dialog in the next frame
-    bool forColours = false;  // asks for the Bake panel's colour image instead of a file to open
+    bool opening = false;  // shows the dialog in the next frame
+    FilePurpose purpose = FilePurpose::Open;
     std::filesystem::path folder;
     std::vector<OpenDialogEntry> entries;  // of the folder: folders first, sorted by name
     std::string problem;                   // why the folder cannot be listed
@@ -31,7 +31,7 @@ bool mayBeOpened(const std::filesystem::path& file);
 // Sets the dialog's folder and its entries, without hidden files.
 void listFolder(const std::filesystem::path& folder, OpenDialogState& state);
 
-// Call every frame. Appends OpenFile or ChooseColourImage.
+// Call every frame. Appends OpenFile, ChooseColourImage or StartCompare, by the purpose.
 void openDialog(OpenDialogState& state, Commands& commands);
 
 }  // namespace worldy::ui

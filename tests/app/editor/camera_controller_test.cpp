@@ -40,6 +40,36 @@ TEST_F(CameraControllerTest, UnfreezingDrawsLiveAgainAndFreezingDoesNot) {
     EXPECT_FALSE(camera_.lodFrozen);
 }
 
+TEST_F(CameraControllerTest, aPlacedLodViewIsAJumpAtBothEndsOfAnInspection) {
+    camera_.rig = CameraRig{};
+    const Viewport viewport;
+    const auto jumps = [&] {
+        followCamera(camera_, viewport, settings_.view.camera, 0.02);
+        return camera_.jumped;
+    };
+    jumps();
+    EXPECT_FALSE(jumps());
+    planet::View seen = camera_.lodView;
+    seen.eyeM += glm::dvec3(1000, 0, 0);
+    inspect(camera_, {}, seen, context());
+    EXPECT_TRUE(jumps());
+    EXPECT_FALSE(jumps());
+    endInspection(camera_, context());
+    EXPECT_TRUE(jumps());
+}
+
+TEST_F(CameraControllerTest, aFlightGoesOnAfterAnInspection) {
+    camera_.rig = CameraRig{};
+    camera_.rig->flight = FollowedFlight{"andes.csv", {}, 12.5, false, std::nullopt, 1};
+    settings_.view.camera.mode = camera_.rig->mode = CameraMode::FollowFlight;
+    inspect(camera_, {}, {}, context());
+    EXPECT_EQ(settings_.view.camera.mode, CameraMode::Fly);
+    endInspection(camera_, context());
+    EXPECT_EQ(settings_.view.camera.mode, CameraMode::FollowFlight);
+    EXPECT_EQ(camera_.rig->mode, CameraMode::FollowFlight) << "a transition would begin";
+    EXPECT_EQ(camera_.rig->flight->timeS, 12.5);
+}
+
 TEST_F(CameraControllerTest, AnotherInspectedPlaceIsDrawnLive) {
     inspectPop(PopSide::Before);
     inspect(camera_, {}, {}, context());

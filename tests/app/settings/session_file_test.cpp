@@ -28,12 +28,14 @@ protected:
 };
 
 TEST_F(SessionFile, isReadAsItWasWritten) {
-    LastSession session{"/a \"b\"\\c/ü.tif",
-                        "/cache/ü 65.chk",
-                        planet::CameraPose{46.25, -6.5, 6000.125, 180, -10.5},
-                        "/t.lodtrace",
-                        {{46.5, -7, 410.25}, {46.75, -7.125, -12}},
-                        LastComparison{}};
+    LastSession session{.file = "/a \"b\"\\c/ü.tif",
+                        .bake = "/cache/ü 65.chk",
+                        .colour = "/c'.jpg",
+                        .camera = planet::CameraPose{46.25, -6.5, 6000.125, 180, -10.5},
+                        .trace = "/t.lodtrace",
+                        .traceFrame = 198,
+                        .ruler = {{46.5, -7, 410.25}, {46.75, -7.125, -12}},
+                        .compare = LastComparison{}};
     session.compare->file = "/b's.chk";
     session.compare->origin = "preset \"p\"";
     session.compare->settings.lod.tauPx = 3.5;
@@ -42,7 +44,9 @@ TEST_F(SessionFile, isReadAsItWasWritten) {
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->file, session.file);
     EXPECT_EQ(read->bake, session.bake);
+    EXPECT_EQ(read->colour, session.colour);
     EXPECT_EQ(read->trace, session.trace);
+    EXPECT_EQ(read->traceFrame, session.traceFrame);
     ASSERT_TRUE(read->camera);
     EXPECT_EQ(read->camera->latitudeDeg, 46.25);
     EXPECT_EQ(read->camera->altitudeM, 6000.125);
@@ -57,6 +61,32 @@ TEST_F(SessionFile, isReadAsItWasWritten) {
     EXPECT_EQ(lastSessionText(*read), lastSessionText(session));
 }
 
+TEST_F(SessionFile, keepsHowTheSourceIsRead) {
+    LastSession session;
+    planet::HeightSourceSettings& source = session.sourceSettings;
+    source.metresPerUnit = 1;
+    source.offsetM = -12.25;
+    source.noDataValue = -32768;
+    source.fillM = 3;
+    source.rawSize = 513;
+    source.rawBits = 16;
+    source.rawSigned = source.rawBigEndian = source.skipBroken = true;
+    session.colour = "";  // it has no colours
+    const planet::Result<LastSession> read = loaded(lastSessionText(session));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->sourceSettings.metresPerUnit, 1);
+    EXPECT_EQ(read->sourceSettings.offsetM, -12.25);
+    EXPECT_EQ(read->sourceSettings.noDataValue, -32768);
+    EXPECT_EQ(read->sourceSettings.fillM, 3);
+    EXPECT_EQ(read->sourceSettings.rawSize, 513);
+    EXPECT_EQ(read->sourceSettings.rawBits, 16);
+    EXPECT_TRUE(read->sourceSettings.rawSigned && read->sourceSettings.rawBigEndian);
+    EXPECT_TRUE(read->sourceSettings.skipBroken);
+    EXPECT_EQ(read->colour, std::filesystem::path());
+    EXPECT_THAT(problemOf("[source]\nunits = 3\n"), HasSubstr("line 2: source.units is unknown"));
+    EXPECT_THAT(problemOf("[source]\nraw_bits = 99\n"), HasSubstr("raw_bits"));
+}
+
 TEST_F(SessionFile, isEmptyBeforeTheFirstSession) {
     const planet::Result<LastSession> none = loadLastSession(file_);
     ASSERT_TRUE(none);
@@ -69,7 +99,8 @@ TEST_F(SessionFile, isEmptyBeforeTheFirstSession) {
 TEST_F(SessionFile, isRefusedWithItsLineIfItIsWrong) {
     EXPECT_THAT(problemOf("file = 'a.tif'\nfiles = 'b.tif'\n"),
                 AllOf(HasSubstr("session.toml: line 2"),
-                      HasSubstr("files is unknown; expected file, bake, camera, trace, ruler or compare")));
+                      HasSubstr("files is unknown; expected file, bake, colour, camera, trace, trace_frame, "
+                                "ruler, source or compare")));
     EXPECT_THAT(problemOf("\nfile = 3\n"), HasSubstr("session.toml: line 2"));
     EXPECT_THAT(problemOf("bake = ['a']\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("bake")));
     EXPECT_THAT(problemOf("camera = '1,2'\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("camera")));

@@ -57,6 +57,17 @@ TEST_F(TraceDocuments, framesAreReadInAnyOrder) {
     EXPECT_EQ(document.problem(), "");
 }
 
+// It has more nodes than are kept, so that frames between kept ones are decoded again.
+TEST_F(TraceDocuments, framesBeforeKeptOnesAreReadAgain) {
+    TraceDocument document(fs::path(WORLDY_SOURCE_DIR) / "tests" / "trace" / "cesium" / "cesium.lodtrace",
+                           false);
+    for (const std::uint64_t frame : {198u, 73u, 145u, 108u, 136u, 40u}) {
+        const auto read = this->read(document, frame);
+        ASSERT_TRUE(read);
+        EXPECT_EQ(read->frame.number, frame);
+    }
+}
+
 TEST_F(TraceDocuments, numbersBesideTheTraceShowItsNearestFrame) {
     test::writeSmallTrace(file_);
     TraceDocument document(file_, false);

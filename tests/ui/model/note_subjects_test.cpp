@@ -116,6 +116,23 @@ TEST(NotePins, flatGroundCoversNoPinInFrontOfTheHorizon) {
         EXPECT_FALSE(isCovered(0, longitudeDeg)) << longitudeDeg;
 }
 
+// From low over flat ground, with the wall's top above the eye.
+TEST(GroundInMiddle, isOnTheMountainAheadThatRisesAboveTheEye) {
+    const planet::ChunkTree tree = planetWithWall(0.06);
+    const double ownM = tree.shape.radiusM;
+    std::vector<planet::DrawItem> drawn;
+    for (planet::NodeIndex i = 0; i < tree.nodes.size(); ++i)
+        drawn.push_back({.node = i, .id = tree.nodes[i].id});
+    const planet::View view = planet::viewFromPose({0, -12, 0.03 * ownM, 90, 0}, ownM, 1.5, 1000, 600);
+    const glm::dvec3 place = groundInMiddle(view, tree, drawn);
+    const planet::Geographic at = planet::geographicFromDirection(glm::normalize(place));
+    EXPECT_GT(glm::degrees(at.longitudeRad), -11.5) << "it is below the camera";
+    EXPECT_LT(glm::degrees(at.longitudeRad), 0.1);
+    EXPECT_GT(glm::length(place), 1.02 * ownM);
+    const planet::View sky = planet::viewFromPose({0, -12, 0.03 * ownM, 90, 60}, ownM, 1.5, 1000, 600);
+    EXPECT_NEAR(glm::length(groundInMiddle(sky, tree, drawn)), ownM, 1) << "the sky is seen";
+}
+
 class NoteSubjects : public testing::Test {
 protected:
     const NoteSubject& subject(const std::string& label) {

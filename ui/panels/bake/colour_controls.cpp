@@ -18,8 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using From = ColourEdit::From;
 
-std::string problemOf(const ColourEdit& edit, const fs::path& image) {
+std::string problemOf(const ColourEdit& edit, const fs::path& source, const fs::path& image) {
     if (edit.from == From::None) return {};
+    // Procedural terrain has no file that an image could lie beside.
+    if (edit.from == From::Own && image.empty() && planet::isTerrainText(source)) return {};
     if (edit.from == From::Own && image.empty())
         return "There is no colour.jpg or colour.png beside the source; the file will have no colours.";
     if (image.empty()) return "Enter the path of the image.";
@@ -49,7 +51,7 @@ void apply(BakeRequest& request, ColourEdit& edit) {
     }
     // The old image's size does not apply to the new one.
     if (request.colour != before && !before.empty()) request.settings.colour.faceSize.reset();
-    edit.problem = problemOf(edit, request.colour);
+    edit.problem = problemOf(edit, request.source, request.colour);
 }
 
 bool fromControl(const BakeRequest& current, const BakeRequest& request, ColourEdit& edit) {
@@ -79,7 +81,7 @@ bool imageControl(ColourEdit& edit, Commands& commands) {
     tooltip(edit.imageText[0] == 0 ? explanation
                                    : fmt::format("{}\n\n{}", edit.imageText.data(), explanation).c_str());
     ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
-    if (ImGui::Button(choose)) commands.push_back(AskForColourImage{});
+    if (ImGui::Button(choose)) commands.push_back(AskForFile{FilePurpose::BakedColours});
     noteItem("Choose");
     tooltip("Opens a file dialog.");
     return changed;
@@ -141,7 +143,7 @@ void setColour(const BakeRequest& request, ColourEdit& edit) {
     const fs::path own = ownColourImage(request.source);
     edit.from = request.colour.empty() ? From::None : request.colour == own ? From::Own : From::Image;
     if (edit.from == From::Image) setImageText(request.colour, edit);
-    edit.problem = problemOf(edit, request.colour);
+    edit.problem = problemOf(edit, request.source, request.colour);
 }
 
 void followSource(BakeRequest& request, ColourEdit& edit) {

@@ -222,7 +222,8 @@ bool sourceControls(const EditorView& view, SourceEdit& edit, BakeRequest& reque
     bool changed = worldControl(view, edit, request);
     const bool lit = request.source != view.bake.current.source;
     bool edited = kindControl(lit, edit);
-    if (edited) {  // the new source has its own height range
+    if (edited) {  // the new source has its own height range and number of samples
+        request.settings.faceSize.reset();
         request.settings.quantumM.reset();
         request.settings.finestQuantumM.reset();
     }

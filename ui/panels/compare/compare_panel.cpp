@@ -64,6 +64,8 @@ void chooseB(const EditorView& view, Commands& commands) {
                            "camera shows both.");
     if (file >= 0)
         commands.push_back(StartCompare{With::File, {}, view.data.recent[static_cast<std::size_t>(file)]});
+    if (button("Choose a file as B...", "Shows a dialog. The radius must match that of A."))
+        commands.push_back(AskForFile{FilePurpose::SideB});
 }
 
 // Returns the text, or its beginning and dots if it is wider than the room.

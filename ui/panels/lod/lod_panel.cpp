@@ -187,7 +187,7 @@ void levelBars(const planet::Planet& planet) {
             {fmt::format("{}", level),
              static_cast<double>(chunks[level]),
              {c.r, c.g, c.b, 1},
-             fmt::format("{}   {} ground tri", chunks[level], countText(chunks[level] * 2 * cells * cells))});
+             fmt::format("{}   {} triangles", chunks[level], countText(chunks[level] * 2 * cells * cells))});
     }
     barList("drawn chunks by level", bars, "chunks");
     tooltip("Chunks drawn per level and their ground triangles. Level 0 is a whole cube face.");

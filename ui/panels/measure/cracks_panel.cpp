@@ -249,11 +249,15 @@ void cracksPanel(const EditorView& view, ViewSettings& settings, Commands& comma
     if (!view.planet) return emptyState("No planet is open. Open one to measure cracks.");
     if (!view.instruments.cracks.measured)
         return emptyState("Not measured yet. Press Measure to count the crack pixels of the current view.");
-    if (!view.instruments.cracks.current) {
+    // While one of its places is inspected, the measurement still leads to the others.
+    const bool isOutOfDate = !view.instruments.cracks.current && !view.camera.inspecting;
+    if (isOutOfDate) {
         wrappedText("Out of date: the camera or the drawn chunks have changed since this measurement.",
                     palette().warning);
+    } else if (!view.instruments.cracks.current) {
+        wrappedText("Measured from the view before this one, in which its pixels are marked.", palette().dim);
     }
-    beginGrey(!view.instruments.cracks.current, "Out of date: measure again.");
+    beginGrey(isOutOfDate, "Out of date: measure again.");
     if (section("Results")) values(view.instruments.cracks, view.recording.replay.has_value(), settings.lod);
     if (section("Crack clusters")) spotTable(view, commands);
     if (section("Edge gaps")) gapTable(view, commands);

@@ -171,7 +171,15 @@ void selectedEvent(const EditorView& view, PopsPanelState& state, Commands& comm
         ImGui::SameLine();
         chunkLink(found->chunk, view, commands);
     }
-    if (view.instruments.pops.shown) flip(view, commands);
+    const planet::PopEvent* const shown = view.instruments.pops.shown;
+    const bool isOther = shown && found != events.end() && keyOf(*shown) != keyOf(*found);
+    if (isOther)
+        wrappedText(fmt::format("The view is that of the level change of {}. Go to the view of this one to "
+                                "draw it before and after.",
+                                planet::toString(shown->chunk)),
+                    palette().dim);
+    else if (shown)
+        flip(view, commands);
     if (found != events.end()) selectedValues(*found);
 }
 

@@ -776,8 +776,8 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
 void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
     if (!ImGui::BeginTabBar("tables")) return;
     const planet::PagingCounters& p = view.frames.stats.paging;
-    // The title counts the table's rows, loads and evictions. A longer title would be cut in a narrow dock.
-    const std::string queue = fmt::format("Queue {}###queue", state.sample.loads + state.sample.evictions);
+    // The title counts what is to be loaded, as the status bar and the plot do.
+    const std::string queue = fmt::format("Queue {}###queue", state.sample.loads);
     if (ImGui::BeginTabItem(queue.c_str())) {
         queueTable(view, state, commands);
         ImGui::EndTabItem();
