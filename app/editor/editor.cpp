@@ -262,7 +262,7 @@ LastSession Editor::lastSession(const Session& session) const {
 void Editor::takeUpSession(const Session& session, ui::Commands& commands) {
     LastSession& last = files_.atStart;
     if (!last.trace.empty())
-        commands.push_back(ui::OpenTrace{std::exchange(last.trace, {}), true, last.traceFrame});
+        commands.push_back(ui::OpenTrace{std::exchange(last.trace, {}), !last.file.empty(), last.traceFrame});
     if (!camera_.rig || !shownScene(session)) return;
     if (last.camera) commands.push_back(ui::MoveCamera{*std::exchange(last.camera, {})});
     const OpenPlanet& open = *shownPlanet(session);
