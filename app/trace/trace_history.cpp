@@ -70,6 +70,9 @@ std::size_t latencyBucket(double seconds) {
 void TraceHistorian::add(const TraceState& state) {
     const planet::TraceFrame& frame = state.frame();
     reporter_.add(state);
+    // An engine's clock may go back or be no number, and the timeline orders the samples by their times.
+    if (std::isfinite(frame.timeS)) timeS_ = isTimed_ ? std::max(timeS_, frame.timeS) : frame.timeS;
+    isTimed_ = isTimed_ || std::isfinite(frame.timeS);
     if (history_.samples.empty() || framesInSample_ == history_.framesPerSample) beginSample(frame);
     ++framesInSample_;
     TracedSample now{.cpuMs = toldMs(frame.cpuMs),
@@ -89,7 +92,7 @@ void TraceHistorian::add(const TraceState& state) {
 
 void TraceHistorian::beginSample(const planet::TraceFrame& frame) {
     if (history_.samples.size() == maxTracedSamples) halve();
-    history_.samples.push_back({.frame = frame.number, .timeS = frame.timeS});
+    history_.samples.push_back({.frame = frame.number, .timeS = timeS_});
     for (auto& [view, samples] : history_.views) samples.emplace_back();
     for (auto& [name, values] : history_.counters) values.push_back(unknown);
     framesInSample_ = 0;
@@ -134,7 +137,7 @@ void TraceHistorian::addStarvation(const TraceState& state, const planet::TraceF
     const auto open = starving_.find(view.view);
     if (open != starving_.end()) {
         TracedStarvation& starvation = history_.starvations[open->second];
-        starvation.untilS = frame.timeS;
+        starvation.untilS = timeS_;
         if (nodes == 0) {
             starvation.isOver = true;
             starving_.erase(open);
@@ -146,7 +149,7 @@ void TraceHistorian::addStarvation(const TraceState& state, const planet::TraceF
     } else if (nodes > 0 && history_.starvations.size() < maxTracedStarvations) {
         starving_[view.view] = history_.starvations.size();
         history_.starvations.push_back(
-            {view.view, frame.number, frame.number, frame.timeS, frame.timeS, false, nodes, worstPx});
+            {view.view, frame.number, frame.number, timeS_, timeS_, false, nodes, worstPx});
     }
 }
 

@@ -17,8 +17,9 @@ namespace worldy {
 
 // One or more frames that follow each other. Numbers are the largest of these frames, sums where a comment says so.
 struct TracedSample {
-    std::uint64_t frame = 0;                                // the first one
-    double timeS = 0;                                       // of the first one, engine's clock
+    std::uint64_t frame = 0;  // the first one
+    // Of the first one, engine's clock; finite, and never less than that of the sample before.
+    double timeS = 0;
     float cpuMs = std::numeric_limits<float>::quiet_NaN();  // NaN: not told
     float gpuMs = std::numeric_limits<float>::quiet_NaN();
     float queued = 0;   // requests that have not arrived, of all kinds
@@ -44,7 +45,7 @@ struct TracedStarvation {
     int view = 0;
     std::uint64_t firstFrame = 0;
     std::uint64_t lastFrame = 0;
-    double fromS = 0;   // engine's clock
+    double fromS = 0;   // engine's clock, as TracedSample::timeS
     double untilS = 0;  // of the first frame without it, or of the last frame read
     bool isOver = false;
     std::uint64_t mostNodes = 0;  // in a frame
@@ -96,6 +97,8 @@ private:
     planet::TraceReporter reporter_{std::numeric_limits<double>::infinity()};
     std::map<int, std::size_t> starving_;  // by view: place in history_.starvations
     std::uint64_t framesInSample_ = 0;
+    double timeS_ = 0;      // the latest time of the engine's clock so far
+    bool isTimed_ = false;  // a finite time was told
 };
 
 }  // namespace worldy

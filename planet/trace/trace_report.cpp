@@ -36,12 +36,15 @@ TraceReporter::TraceReporter(double budgetMs, const TraceFaultLimits& limits)
 
 void TraceReporter::add(const TraceState& state) {
     const TraceFrame& frame = state.frame();
-    if (report_.frames++ == 0) {
+    if (report_.frames++ == 0)
         report_.firstFrame = frame.number;
-        firstS_ = frame.timeS;
-    }
+    else
+        report_.missingFrames += frame.number > report_.lastFrame ? frame.number - report_.lastFrame - 1 : 0;
     report_.lastFrame = frame.number;
-    report_.durationS = frame.timeS - firstS_;
+    if (std::isfinite(frame.timeS)) {
+        if (!firstS_) firstS_ = frame.timeS;
+        report_.durationS = frame.timeS - *firstS_;
+    }
     if (frame.cpuMs >= 0) cpuMs_.push_back(static_cast<float>(frame.cpuMs));
     if (frame.gpuMs >= 0) gpuMs_.push_back(static_cast<float>(frame.gpuMs));
     report_.framesOverBudget += std::max(frame.cpuMs, frame.gpuMs) > budgetMs_;
@@ -155,8 +158,6 @@ TraceReport TraceReporter::finish(const TraceState& state) {
     report_.description = state.description();
     report_.nodes = state.nodes().size();
     report_.droppedEvents = state.droppedTotal();
-    if (report_.frames > 0)
-        report_.missingFrames = report_.lastFrame - report_.firstFrame + 1 - report_.frames;
     report_.cpuMs = spreadOf(cpuMs_);
     report_.gpuMs = spreadOf(gpuMs_);
     for (View& view : views_) {

@@ -66,8 +66,8 @@ struct TraceReport {
     std::uint64_t frames = 0;  // that the trace has
     std::uint64_t firstFrame = 0;
     std::uint64_t lastFrame = 0;
-    std::uint64_t missingFrames = 0;  // between them
-    double durationS = 0;             // from the first to the last, engine's clock
+    std::uint64_t missingFrames = 0;  // gaps between frames that follow each other with ascending numbers
+    double durationS = 0;             // from the first to the last, engine's clock, of finite times
     std::uint64_t droppedEvents = 0;
     std::uint64_t nodes = 0;
     TraceSpread cpuMs{};  // of frames that told them
@@ -128,7 +128,7 @@ private:
     std::vector<float> gpuMs_;
     std::vector<View> views_;  // in the order in which they were seen
     std::vector<Kind> kinds_;
-    double firstS_ = 0;
+    std::optional<double> firstS_;  // the first finite time
 };
 
 // Reads a whole trace. goOn is called now and then; returning false ends with an Error of the kind Cancelled. A trace that is

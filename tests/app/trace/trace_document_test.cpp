@@ -211,6 +211,24 @@ TEST_F(TraceDocuments, tracesAreKnownByTheirFirstBytes) {
     EXPECT_FALSE(isTraceFile(folder_.path() / "none"));
 }
 
+TEST(TraceHistorian, clockThatGoesBackOrIsNoNumberKeepsTheLastTime) {
+    constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    planet::TraceState state;
+    TraceHistorian historian;
+    std::uint64_t frame = 0;
+    for (const double timeS : {-3.0, notANumber, -2.0, infinite, -infinite, -2.5, 1.0}) {
+        state.add(planet::TraceFrameBegan{++frame, frame, timeS});
+        state.add(planet::TraceFrameEnded{frame, 1, -1});
+        historian.add(state);
+    }
+    const auto history = historian.history(state, true);
+    std::vector<double> times;
+    for (const TracedSample& sample : history->samples) times.push_back(sample.timeS);
+    EXPECT_EQ(times, (std::vector<double>{-3, -3, -2, -2, -2, -2, 1}));
+    EXPECT_EQ(history->report.durationS, 4);
+}
+
 TEST(TraceHistorian, longTracesKeepTheirPeaks) {
     planet::TraceState state;
     TraceHistorian historian;

@@ -107,6 +107,14 @@ TEST_F(TraceReports, nothingIsAChangeAcrossAGap) {
     EXPECT_EQ(report.droppedEvents, 5u);
 }
 
+TEST_F(TraceReports, numbersThatGoBackAreNoMissingFrames) {
+    for (const std::uint64_t number : {5u, 3u, 4u, 7u}) {
+        frames_ = number - 1;
+        frame(0, {0});
+    }
+    EXPECT_EQ(report().missingFrames, 2u);
+}
+
 TEST_F(TraceReports, worstErrorNamesItsFrameAndNode) {
     frame(0, {0}, 1);
     frame(0.1, {1, 2}, 3);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "app/scene/overlay_colours.h"
 #include "ui/model/explanation_text.h"
@@ -15,6 +16,8 @@ namespace worldy::ui {
 namespace {
 
 using planet::ChunkState;
+
+constexpr std::size_t mostLevels = 32;  // in a legend; a hostile trace can have any
 
 // Returns the state of a chunk that has the same meaning, so that the same colours mean the same everywhere.
 ChunkState stateOf(const TracedNode& node) {
@@ -66,11 +69,12 @@ Legend traceLegend(TraceColouring by, const TracedView& view) {
                                        ChunkState::Loading, ChunkState::NotResident, ChunkState::Failed})
             add(stateColour(state), stateText(state));
     } else if (by == TraceColouring::Level) {
-        std::uint32_t deepest = 0;
+        std::set<std::uint32_t> levels;
         for (const TracedNode& node : view.nodes)
-            if (node.place == TracedPlace::Drawn) deepest = std::max(deepest, node.node.level);
-        for (std::uint32_t level = 0; level <= deepest; ++level)
-            add(levelColour(static_cast<int>(level)), fmt::format("{}", level));
+            if (node.place == TracedPlace::Drawn) levels.insert(node.node.level);
+        for (const std::uint32_t level : levels)
+            if (legend.entries.size() < mostLevels)
+                add(levelColour(static_cast<int>(level)), fmt::format("{}", level));
     } else if (by == TraceColouring::Error) {
         for (const double share : {0.0, 0.5, 1.0, 1.5, 2.0}) {
             const std::string label = std::isnan(view.tauPx) ? fmt::format("{:g} {}", share, tauSymbol())

@@ -109,12 +109,12 @@ void drawSeries(ImDrawList& list, const Axis& axis, const StripSeries& series, d
     const float unit = ImGui::GetFontSize() / 13;
     ImVec2 before{0, 0};
     bool hasBefore = false;
+    const auto columnOf = [&](std::size_t i) { return std::floor(axis.at(axis.samples[i].timeS)); };
     for (std::size_t i = first; i < last;) {
-        const float column = std::floor(axis.at(axis.samples[i].timeS));
-        float value = unknown;
-        for (; i < last && std::floor(axis.at(axis.samples[i].timeS)) <= column; ++i)
-            value = std::fmax(value, series.value(i));
-        if (std::isnan(value)) {
+        const float column = columnOf(i);
+        float value = series.value(i++);
+        for (; i < last && columnOf(i) <= column; ++i) value = std::fmax(value, series.value(i));
+        if (std::isnan(value) || !std::isfinite(column)) {
             hasBefore = false;
             continue;
         }
@@ -268,12 +268,16 @@ void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& 
     mouse(axis, beginS, endS, state, commands);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const std::uint64_t number = view.trace.frame ? view.trace.frame->frame.number : 0;
-    const double shownS = view.trace.frame ? view.trace.frame->frame.timeS : beginS;
     const auto after = std::ranges::upper_bound(history->samples, number, {}, &TracedSample::frame);
     const std::size_t sample = after == history->samples.begin()
                                    ? 0
                                    : static_cast<std::size_t>(after - history->samples.begin()) - 1;
     keyboard(axis, sample, state, commands);
+    // The frame's own time may lie outside its sample, as if the engine's clock went back.
+    const double sampleS = history->samples[sample].timeS;
+    const double nextS = sample + 1 < history->samples.size() ? history->samples[sample + 1].timeS : endS;
+    const double frameS = view.trace.frame ? view.trace.frame->frame.timeS : beginS;
+    const double shownS = frameS >= sampleS && frameS <= nextS ? frameS : sampleS;
     float y = corner.y;
     for (const Strip& strip : strips) {
         list.AddRectFilled({corner.x, y}, {corner.x + size.x, y + height},

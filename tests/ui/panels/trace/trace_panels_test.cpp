@@ -96,6 +96,24 @@ TEST_F(TracePanels, drawWithoutATraceAndInAnySize) {
     }
 }
 
+// The engine's clock may be no number, and a level may be any.
+TEST_F(TracePanels, numbersThatAreNoneDrawToo) {
+    constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+    TraceHistory history = *history_;
+    TracedFrame frame = *frame_;
+    for (const double timeS : {notANumber, std::numeric_limits<double>::infinity(), -1e308, 1e308}) {
+        history.samples[10].timeS = frame.frame.timeS = timeS;
+        history_ = std::make_shared<TraceHistory>(history);
+        frame.views.at(0).nodes.at(0).node.level = 0xFFFFFFFF;
+        frame_ = std::make_shared<TracedFrame>(frame);
+        states_.traceNodes.colouring = TraceColouring::Level;
+        for (const PanelId panel : tracePanels) draw(panel);
+    }
+    const Legend legend = traceLegend(TraceColouring::Level, frame.views.at(0));
+    ASSERT_EQ(legend.entries.size(), 2u);  // and the mark of the node that waits
+    EXPECT_EQ(legend.entries[0].label, "4294967295");
+}
+
 TEST_F(TracePanels, attachAsksForThePort) {
     const Commands commands = click(PanelId::Trace, "Attach");
     ASSERT_TRUE(find<AttachTrace>(commands));
