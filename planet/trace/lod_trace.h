@@ -27,6 +27,9 @@
 // (frame_begin, view, drawn, culled, frame_end) come from one thread, which may be another one in the next frame. A ring
 // belongs to the thread that uses it until lod_trace_thread_end. Open several traces if several engines run in a process.
 //
+// VALUES of an enumeration below that this version does not know count as the first one; a reason for culling as
+// LOD_TRACE_CULLED_OTHER, and a severity as LOD_TRACE_ERROR. Views and kinds out of range leave the event out.
+//
 // STRINGS are UTF-8, are copied before a call returns, and are cut at LOD_TRACE_MAX_NAME or LOD_TRACE_MAX_TEXT bytes.
 //
 // COORDINATES. World positions are doubles in the unit that lod_trace_description::metres_per_unit states, right-handed,
@@ -842,6 +845,12 @@ static size_t lodt_cut(const char* text, size_t most) {
     return length;
 }
 
+// Returns a value of an enumeration from 0 to `last`, or `other` for any that the format does not know: a reader would refuse
+// the whole trace.
+static uint8_t lodt_known(int value, int last, int other) {
+    return (uint8_t)(value >= 0 && value <= last ? value : other);
+}
+
 int lod_trace_describe(lod_trace* trace, const lod_trace_description* description) {
     const uint64_t size = lodt_rounded(sizeof(lodt_description));
     lodt_ring* ring;
@@ -853,10 +862,11 @@ int lod_trace_describe(lod_trace* trace, const lod_trace_description* descriptio
     if (!record) return lodt_refuse(trace);
     record->radius = description->radius;
     record->metres_per_unit = description->metres_per_unit > 0 ? description->metres_per_unit : 1;
-    record->shape = (uint8_t)description->shape;
-    record->ids = (uint8_t)description->ids;
-    record->error = (uint8_t)description->error;
-    record->requests = (uint8_t)description->requests;
+    record->shape = lodt_known(description->shape, LOD_TRACE_SPHERE, LOD_TRACE_FLAT);
+    record->ids = lodt_known(description->ids, LOD_TRACE_IDS_QUADTREE, LOD_TRACE_IDS_OPAQUE);
+    record->error = lodt_known(description->error, LOD_TRACE_ERROR_PIXELS, LOD_TRACE_ERROR_WORLD);
+    record->requests =
+        lodt_known(description->requests, LOD_TRACE_REQUESTS_CHILDREN, LOD_TRACE_REQUESTS_NODE);
     record->name_length = (uint32_t)lodt_cut(description->name, LOD_TRACE_MAX_NAME);
     end = record->text;
     memcpy(end, description->name ? description->name : "", record->name_length);
@@ -879,6 +889,7 @@ int lod_trace_node(lod_trace* trace, const lod_trace_node_info* node) {
     record = (lodt_node*)lodt_record(trace, &ring, sizeof *record, LODT_NODE, 1);
     if (!record) return lodt_refuse(trace);
     record->info = *node;
+    record->info.bounds = lodt_known(node->bounds, LOD_TRACE_BOUNDS_BOX, LOD_TRACE_BOUNDS_NONE);
     lodt_publish(ring, sizeof *record);
     return 1;
 }
@@ -951,7 +962,8 @@ void lod_trace_drawn_px(lod_trace* trace, int view, uint64_t node, float morph, 
 }
 
 void lod_trace_culled(lod_trace* trace, int view, uint64_t node, int reason) {
-    if (trace) lodt_draw_event(trace, LODT_CULLED, view, node, (uint8_t)(reason & 7), 0, 0);
+    const uint8_t known = lodt_known(reason, LOD_TRACE_CULLED_OTHER, LOD_TRACE_CULLED_OTHER);
+    if (trace) lodt_draw_event(trace, LODT_CULLED, view, node, known, 0, 0);
 }
 
 // The types of events in the stream; README.md has the table.
@@ -1068,8 +1080,8 @@ void lod_trace_counter(lod_trace* trace, const char* name, double value) {
 void lod_trace_message(lod_trace* trace, int severity, const char* text) {
     lodt_ring* ring;
     if (!trace || !text || !lodt_peek(&trace->listening)) return;
-    if (!lodt_named_event(trace, LODT_MESSAGE, (uint8_t)(severity & 3), lod_trace_now_ns(), NULL, 0, text,
-                          &ring))
+    if (!lodt_named_event(trace, LODT_MESSAGE, lodt_known(severity, LOD_TRACE_ERROR, LOD_TRACE_ERROR),
+                          lod_trace_now_ns(), NULL, 0, text, &ring))
         lodt_drop(trace, ring);
 }
 
@@ -1304,7 +1316,7 @@ static void lodt_put_node(lod_trace* trace, uint32_t index) {
     lodt_buffer* out = &w->definitions;
     lodt_entry* entry = &w->entries[index];
     const lod_trace_node_info* node = &entry->info;
-    const int bounds = node->bounds & 3;
+    const int bounds = node->bounds;
     int i;
     entry->is_stored = 1;
     lodt_put_byte(w, out, LODT_D_NODE);

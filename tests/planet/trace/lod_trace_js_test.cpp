@@ -61,6 +61,13 @@ void tellThird(lod_trace* trace, std::uint64_t parent, std::uint32_t level, doub
     lod_trace_node(trace, &node);
 }
 
+void tellOfNoShape(lod_trace* trace) {
+    lod_trace_node_info node{};
+    node.id = 4;
+    node.bounds = 3;
+    lod_trace_node(trace, &node);
+}
+
 void tellPaging(lod_trace* trace, int frame, std::uint64_t farId) {
     if (frame == 3) {
         lod_trace_requested(trace, 1, 0, std::numeric_limits<float>::quiet_NaN());
@@ -101,6 +108,7 @@ std::string writtenInC(const std::filesystem::path& file) {
     lod_trace_setting_text(trace, "mode", std::string(5000, 'x').c_str());
     const std::uint64_t farId = lod_trace_quadtree_id(5, 28, (1u << 28) - 1, (1u << 28) - 2);
     tellNodes(trace, farId);
+    tellOfNoShape(trace);
     tellThird(trace, 0xFEDCBA9876543210u, 2, std::numeric_limits<double>::infinity());
     for (int frame = 1; frame <= framesWritten; ++frame) {
         if (frame == 2) tellThird(trace, 1, 1, 0.125);
@@ -125,12 +133,14 @@ std::string writtenInC(const std::filesystem::path& file) {
         lod_trace_drawn_px(trace, 0, 3, 0, std::numeric_limits<float>::infinity());
         lod_trace_culled(trace, 15, 1, LOD_TRACE_CULLED_OTHER);
         lod_trace_culled(trace, 15, 40, LOD_TRACE_CULLED_HORIZON);
+        lod_trace_culled(trace, 0, 40, 7);
         tellPaging(trace, frame, farId);
         lod_trace_counter(trace, "whole", frame - 5);
         lod_trace_counter(trace, "large", -9007199254740991.0);
         lod_trace_counter(trace, "real", frame / 3.0);
         lod_trace_counter(trace, "zero", -0.0);
         lod_trace_message(trace, LOD_TRACE_WARNING, "message \u03b2");
+        lod_trace_message(trace, 3, "of no known severity");
         lod_trace_frame_end(trace, 1.5, frame % 2 ? -1 : 2.25);
     }
     trace.close();

@@ -317,6 +317,34 @@ TEST(LodTrace, numbersOutOfRangeAreLeftOut) {
     EXPECT_TRUE(eventsOf<TracePaged>(read.events).empty());
 }
 
+// A reader refuses a trace with an unknown value, so one wrong number of an engine would cost all of it.
+TEST(LodTrace, enumerationsThatAreUnknownAreReplaced) {
+    for (const int wrong : {-1, 3, 4, 7, 256 + 9, 1 << 20}) {
+        const ReadTrace read = roundTrip([&](lod_trace* trace) {
+            lod_trace_description description{};
+            description.shape = description.ids = description.error = description.requests = wrong;
+            lod_trace_describe(trace, &description);
+            lod_trace_node_info node = test::sphereNode(1);
+            node.bounds = wrong;
+            lod_trace_node(trace, &node);
+            lod_trace_frame_begin(trace, 0);
+            lod_trace_culled(trace, 0, 1, wrong == 3 ? 4 : wrong);
+            lod_trace_message(trace, wrong, "of no known severity");
+        });
+        EXPECT_EQ(eventsOf<TraceDescription>(read.events), std::vector{TraceDescription{}}) << wrong;
+        const auto nodes = eventsOf<TraceNodeTold>(read.events);
+        ASSERT_EQ(nodes.size(), 1u);
+        EXPECT_EQ(nodes[0].node.bounds, TraceBounds{});
+        EXPECT_EQ(nodes[0].node.error, 0.25);
+        const auto culled = eventsOf<TraceCulled>(read.events);
+        ASSERT_EQ(culled.size(), 1u);
+        EXPECT_EQ(culled[0].reason, TraceCulling::Other);
+        const auto messages = eventsOf<TraceMessage>(read.events);
+        ASSERT_EQ(messages.size(), 1u);
+        EXPECT_EQ(messages[0].severity, TraceSeverity::Failure);
+    }
+}
+
 // ---- errors ----
 
 std::string openError(const std::string& where) {

@@ -202,6 +202,11 @@ function isSameBytes(a, b) {
     return true;
 }
 
+// Returns a value of an enumeration from 0 to `last`, or `other` for any that the format does not know.
+function known(value, last, other) {
+    return Number.isInteger(value) && value >= 0 && value <= last ? value : other;
+}
+
 // Unknown amounts are 0.
 function amount(value) {
     return value > 0 ? Math.min(Math.floor(value), Number.MAX_SAFE_INTEGER) : 0;
@@ -295,7 +300,7 @@ export class LodTrace {
         if (this.#events.size > 0) this.#flushBlock();
         const out = new ByteWriter();
         out.u8(Definition.DESCRIPTION);
-        for (const value of [shape, ids, error, requests]) out.u8(value);
+        for (const value of [shape, ids, error, requests]) out.u8(known(value, 1, 0));
         out.f64(radius);
         out.f64(metresPerUnit || 1);
         out.text(textBytes(name, MAX_NAME_BYTES));
@@ -391,7 +396,7 @@ export class LodTrace {
         const index = this.#isView(view) ? this.#indexOf(id) : undefined;
         if (index === undefined) return;
         this.#selectView(view);
-        this.#begin(Event.CULLED | ((reason & 3) << 5));
+        this.#begin(Event.CULLED | (known(reason, Culled.OTHER, Culled.OTHER) << 5));
         this.#putDrawn(index);
     }
 
@@ -445,7 +450,7 @@ export class LodTrace {
     // severity: Severity.
     message(severity, text) {
         this.#putThread();
-        this.#begin(Event.MESSAGE | ((severity & 3) << 5));
+        this.#begin(Event.MESSAGE | (known(severity, Severity.ERROR, Severity.ERROR) << 5));
         this.#putTime(this.#time());
         this.#events.text(textBytes(text, MAX_TEXT_BYTES));
     }
@@ -617,7 +622,7 @@ export class LodTrace {
     // Valid until the next call.
     #nodeDefinition(index, info) {
         const out = this.#scratch;
-        const bounds = info.bounds ?? Bounds.NONE;
+        const bounds = known(info.bounds, Bounds.BOX, Bounds.NONE);
         const hasParent = info.parent !== undefined && info.parent !== null;
         out.size = 0;
         out.u8(Definition.NODE);

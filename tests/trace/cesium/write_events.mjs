@@ -34,6 +34,7 @@ trace.node({
     halfSize: [3, 2, 1],
     error: 1e-9,
 });
+trace.node({ id: 4, bounds: 3, centre: [1, 2, 3], radius: 1 }); // no known shape
 trace.node({ id: 3, parent: 0xfedcba9876543210n, level: 2, error: Infinity });
 
 for (let frame = 1; frame <= FRAMES; ++frame) {
@@ -53,6 +54,7 @@ for (let frame = 1; frame <= FRAMES; ++frame) {
     trace.drawn(0, 3, 0, Infinity);
     trace.culled(15, 1, Culled.OTHER);
     trace.culled(15, 40, Culled.HORIZON); // was never told
+    trace.culled(0, 40, 7); // no known reason
     ns += 500;
     if (frame === 3) {
         trace.requested(1, 0);
@@ -78,6 +80,7 @@ for (let frame = 1; frame <= FRAMES; ++frame) {
     trace.counter("real", frame / 3);
     trace.counter("zero", -0);
     trace.message(Severity.WARNING, "message \u03b2");
+    trace.message(3, "of no known severity");
     if (frame === 4) trace.dropped(300);
     trace.frameEnd(1.5, frame % 2 ? -1 : 2.25);
 }
