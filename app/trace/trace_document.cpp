@@ -43,12 +43,13 @@ public:
         return file_.frames().value_or(planet::TraceFrameRange{}).last;
     }
 
-    // Returns the first frame at or after one, or the last one; null if the file has none.
-    Result<std::shared_ptr<const TracedFrame>> read(std::uint64_t frame) {
+    // Returns the first frame at or after one, or the last one; null if the file has none. grows: whether a block that is not
+    // whole may still be.
+    Result<std::shared_ptr<const TracedFrame>> read(std::uint64_t frame, bool grows) {
         if (const auto kept = frames_.find(frame); kept != frames_.end()) return kept->second;
         frame_ = frame;
         const planet::TraceDecoder::Sink sink = [&](const TraceEvent& event) { take(event); };
-        if (last_ == 0 || frame <= last_ || frame - last_ > nearFrames) {
+        if (std::exchange(seeks_, false) || last_ == 0 || frame <= last_ || frame - last_ > nearFrames) {
             // The frame before tells the switches.
             last_ = 0;
             if (const auto found = file_.seek(frame > 1 ? frame - 1 : frame, sink); !found)
@@ -58,7 +59,11 @@ public:
             // A kept frame after this one is not the next one until the decoder has passed this one.
             const auto found = frames_.lower_bound(frame);
             if (found != frames_.end() && (found->first == frame || last_ >= frame)) return found->second;
-            const Result<bool> more = file_.next(sink);
+            Result<bool> more = file_.next(sink);
+            if (more && !*more && !grows) {
+                more = file_.nextCut(sink);
+                if (more && *more) seeks_ = true;
+            }
             if (!more) {
                 last_ = 0;
                 return tl::unexpected(more.error());
@@ -74,7 +79,8 @@ private:
         if (!state_.add(event)) return;
         builder_.add(state_);
         last_ = state_.frame().number;
-        const bool isLastBlock = last_ + framesOfLastBlock() > file_.frames()->last;
+        const std::uint64_t lastOfBlocks = file_.frames().value_or(planet::TraceFrameRange{}).last;
+        const bool isLastBlock = last_ + framesOfLastBlock() > lastOfBlocks;
         if (last_ < frame_ && !isLastBlock) return;
         newest_ = builder_.build(state_);
         if (last_ >= frame_) keep(newest_);
@@ -108,6 +114,7 @@ private:
     TracedFrameBuilder builder_;
     std::uint64_t frame_ = 0;                    // asked for
     std::uint64_t last_ = 0;                     // decoded; 0: none since the last seek
+    bool seeks_ = false;                         // before the next frame, because a cut block was decoded
     std::shared_ptr<const TracedFrame> newest_;  // the last frame of the file, if it was decoded
     std::map<std::uint64_t, std::shared_ptr<const TracedFrame>> frames_;
     std::size_t nodes_ = 0;  // of frames_
@@ -168,6 +175,11 @@ std::string TraceDocument::problem() const {
     return problem_;
 }
 
+bool TraceDocument::grows() const {
+    const std::lock_guard lock(mutex_);
+    return grows_;
+}
+
 TraceDocument::Wanted TraceDocument::wanted() const {
     const std::lock_guard lock(mutex_);
     return wanted_;
@@ -216,7 +228,7 @@ void TraceDocument::readFrames(const std::stop_token& stop) {
             publish(std::shared_ptr<const TracedFrame>(), asked.request);
             continue;
         }
-        Result<std::shared_ptr<const TracedFrame>> read = reader.read(frame);
+        Result<std::shared_ptr<const TracedFrame>> read = reader.read(frame, grows());
         if (!read) {
             fail(read.error().message);
             publish(std::shared_ptr<const TracedFrame>(), asked.request);
@@ -242,11 +254,7 @@ void TraceDocument::readHistory(const std::stop_token& stop) {
     if (const auto begun = file->seek(0, sink); !begun) return fail(begun.error().message);
     Clock::time_point next = Clock::now() + leastPublishPause;
     while (!stop.stop_requested()) {
-        bool grows = false;
-        {
-            const std::lock_guard lock(mutex_);
-            grows = grows_;
-        }
+        const bool grows = this->grows();
         if (grows) {
             if (const auto blocks = file->refresh(); !blocks) return fail(blocks.error().message);
         }
@@ -256,6 +264,7 @@ void TraceDocument::readHistory(const std::stop_token& stop) {
             if (const auto blocks = file->refresh(); !blocks) return fail(blocks.error().message);
             if (file->problem()) fail(*file->problem());
             more = file->next(sink);
+            if (more && !*more) more = file->nextCut(sink);
         }
         if (!more) fail(more.error().message);
         const bool isAtEnd = !more || !*more;

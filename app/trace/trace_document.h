@@ -56,6 +56,7 @@ private:
     void readFrames(const std::stop_token& stop);
     void readHistory(const std::stop_token& stop);
     Wanted wanted() const;
+    bool grows() const;
     bool pause(const std::stop_token& stop, std::uint64_t request);
     void publish(std::shared_ptr<const TracedFrame> frame, std::uint64_t request);
     void publish(std::shared_ptr<const TraceHistory> history);

@@ -45,6 +45,7 @@ Result<TraceFile> TraceFile::open(const std::filesystem::path& path, const FileC
 Result<std::size_t> TraceFile::refresh() {
     TRY_ASSIGN(const auto size, sizeOf(file_));
     problem_.reset();
+    cut_.reset();
     std::array<std::byte, traceBlockHeaderBytes> bytes{};
     while (end_ < size) {
         const std::uint64_t left = size - end_;
@@ -56,6 +57,10 @@ Result<std::size_t> TraceFile::refresh() {
             break;
         }
         if (!hasHeader || left - traceBlockHeaderBytes < header->bytes) {
+            if (hasHeader) {
+                cut_ = TraceBlock{end_, *header};
+                cutBytes_ = static_cast<std::size_t>(left - traceBlockHeaderBytes);
+            }
             problem_ =
                 damaged(end_,
                         fmt::format("the trace ends {} bytes into a block; what came before is valid", left))
@@ -109,6 +114,7 @@ Result<void> TraceFile::seek(std::uint64_t frame, const TraceDecoder::Sink& sink
         position_ = 0;
         sink(TraceRestarted{});
     }
+    isCutRead_ = false;
     isLost_ = true;
     TRY(skipTo(block, sink));
     isLost_ = false;
@@ -116,7 +122,7 @@ Result<void> TraceFile::seek(std::uint64_t frame, const TraceDecoder::Sink& sink
 }
 
 Result<bool> TraceFile::next(const TraceDecoder::Sink& sink) {
-    if (position_ >= blocks_.size()) return false;
+    if (position_ >= blocks_.size() || isCutRead_) return false;
     const TraceBlock& block = blocks_[position_];
     isLost_ = true;
     std::vector<std::byte> bytes(block.header.bytes);
@@ -125,6 +131,15 @@ Result<bool> TraceFile::next(const TraceDecoder::Sink& sink) {
         return damaged(block.offset, decoded.error().message);
     isLost_ = false;
     ++position_;
+    return true;
+}
+
+Result<bool> TraceFile::nextCut(const TraceDecoder::Sink& sink) {
+    if (!cut_ || isCutRead_ || position_ < blocks_.size()) return false;
+    isCutRead_ = isLost_ = true;
+    std::vector<std::byte> bytes(cutBytes_);
+    TRY(file_.read(cut_->offset + traceBlockHeaderBytes, bytes));
+    decoder_.decodePrefix(cut_->header, bytes, sink);
     return true;
 }
 

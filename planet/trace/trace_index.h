@@ -46,8 +46,13 @@ public:
     // up to there after a TraceRestarted, or, forwards, only those in between. The frames from the key block on follow by next().
     Result<void> seek(std::uint64_t frame, const TraceDecoder::Sink& sink);
 
-    // Decodes the next block. Returns false at the end. After an Error, seek before the next call.
+    // Decodes the next whole block. Returns false at the end. After an Error, seek before the next call.
     Result<bool> next(const TraceDecoder::Sink& sink);
+
+    // After the last whole block, decodes what there is of a block in which the file ends, without its checksum. Returns false
+    // if there is no such block or if it was decoded already. Call it if the file does not grow any more: next() returns false
+    // from then on, until a seek.
+    Result<bool> nextCut(const TraceDecoder::Sink& sink);
 
 private:
     TraceFile(OpenFile file, std::string name) : file_(std::move(file)), name_(std::move(name)) {}
@@ -58,12 +63,15 @@ private:
     OpenFile file_;
     std::string name_;
     std::vector<TraceBlock> blocks_;
-    std::vector<std::uint32_t> keys_;  // blocks that are keys, ascending
-    std::uint64_t end_ = traceHeaderBytes;
+    std::vector<std::uint32_t> keys_;       // blocks that are keys, ascending
+    std::uint64_t end_ = traceHeaderBytes;  // of the whole blocks
+    std::optional<TraceBlock> cut_;  // the block after them, if its header is whole and its rest is not
+    std::size_t cutBytes_ = 0;       // of it, after its header
     std::optional<std::string> problem_;
     TraceDecoder decoder_;
     std::size_t position_ = 0;  // the next block
-    bool isLost_ = false;       // an Error left the decoder between two states
+    bool isLost_ = false;       // an Error or a cut block left the decoder between two states
+    bool isCutRead_ = false;    // since the last seek
 };
 
 }  // namespace planet

@@ -125,7 +125,7 @@ std::string quotedLine(std::string_view begin) {
     return fmt::format("\"{}\"", line);
 }
 
-// Writes the checked parts of one connection into a new file, which is made with the first block.
+// Writes the parts of one connection into a new file, which is made with the first block.
 class TraceSpool {
 public:
     explicit TraceSpool(const TraceLinkSettings& settings) : settings_(settings) {}
@@ -189,11 +189,13 @@ private:
 };
 
 struct Counts {
+    std::uint64_t events = 0;
     std::uint64_t frames = 0;
     std::uint64_t nodes = 0;
     std::uint64_t dropped = 0;
 
     void add(const TraceEvent& event) {
+        ++events;
         if (std::holds_alternative<TraceFrameBegan>(event)) ++frames;
         if (const auto* told = std::get_if<TraceNodeTold>(&event))
             nodes = std::max<std::uint64_t>(nodes, std::uint64_t{told->index} + 1);
@@ -219,6 +221,14 @@ public:
         if (isAlien()) return false;
         if (const auto fed = reader_.feed(bytes); !fed) problem_ = fed.error().message;
         return !problem_ && !writeProblem_;
+    }
+
+    // Ends the stream. What came of an unfinished block goes to the file if it has an event, so that none is lost that came.
+    void finish() {
+        const std::vector<std::byte> tail(reader_.unfinished().begin(), reader_.unfinished().end());
+        const std::uint64_t before = counts_.events;
+        (void)reader_.finish();
+        if (counts_.events > before) write(tail);
     }
 
     // Returns whether the first bytes are not those of a trace. The first wrong byte is enough to know.
@@ -465,7 +475,12 @@ Next TraceLink::State::receive(const Descriptor& socket) {
         }
         const ssize_t count = ::recv(socket.number(), bytes.data(), bytes.size(), 0);
         if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-        if (count <= 0) return closed(reception, count < 0 ? errno : 0);
+        if (count <= 0) {
+            const int error = count < 0 ? errno : 0;
+            reception.finish();
+            publish(reception);
+            return reception.writeProblem() ? refuse(reception) : closed(reception, error);
+        }
         noteBytes();
         const bool goesOn = reception.feed(std::span(bytes).first(static_cast<std::size_t>(count)));
         publish(reception);
@@ -513,8 +528,8 @@ Next TraceLink::State::closed(const Reception& reception, int error) {
         return Next::RetrySlowly;
     }
     if (reception.uncheckedBytes() > 0 || error != 0)
-        noteProblem(fmt::format("{}: the stream ended {} bytes into a block{}; what came before is in {}",
-                                address, reception.uncheckedBytes(), reason, reception.file().path.string()));
+        noteProblem(fmt::format("{}: the stream ended {} bytes into a block{}; what came is in {}", address,
+                                reception.uncheckedBytes(), reason, reception.file().path.string()));
     enter(TraceLinkState::Waiting,
           fmt::format("the engine at {} left after {}, which are in {}; waits for the next one", address,
                       framesText(reception.file().frames), reception.file().path.string()));

@@ -39,7 +39,7 @@ enum class TraceLinkState {
 };
 
 // The file of one connection, and its contents. The file holds the blocks that are counted here, and for a moment one that was
-// just written.
+// just written. At the end of the connection, events of an unfinished block count too.
 struct TraceLinkFile {
     std::filesystem::path path;  // empty if there was no connection yet
     std::uint64_t bytes = 0;     // in the file
@@ -64,8 +64,9 @@ struct TraceLinkStatus {
 // Connects, waits while nothing listens, and connects again after the engine left, all on a thread of its own. Each
 // connection gets a new file, NAME.lodtrace, NAME-2.lodtrace, and so on. No file is ever replaced, and bytes that are no trace
 // leave none. Blocks are checked as a TraceReader does, and a block is written as soon as it is whole and valid: TraceFile
-// can open the file and refresh while it grows, and whatever ends this process leaves a valid file. If a stream is damaged,
-// what came before stays. The engine takes one tool at a time, so two links to one port cannot both receive.
+// can open the file and refresh while it grows, and whatever ends this process leaves a valid file. If the engine
+// leaves inside a block, the file ends there too, and TraceFile::nextCut() reads its events. If a stream is damaged, what came
+// before stays. The engine takes one tool at a time, so two links to one port cannot both receive.
 class TraceLink {
 public:
     // Starts the thread. The Error says which setting is wrong. Nothing needs to listen yet.
@@ -74,7 +75,8 @@ public:
     TraceLink& operator=(const TraceLink&) = delete;
     ~TraceLink();  // stops
 
-    // Closes the connection and ends the thread. It waits for nothing but a block that is being written. Any thread.
+    // Closes the connection and ends the thread. It waits for nothing but a block that is being written; one that came only in
+    // part is discarded. Any thread.
     void stop();
 
     // Return how it stands at this moment. Any thread.

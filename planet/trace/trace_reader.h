@@ -33,6 +33,9 @@ public:
     // ends: what came before is valid.
     Result<void> finish();
 
+    // Returns what came of the part that is not whole yet; empty after an Error. Valid until the next call.
+    std::span<const std::byte> unfinished() const { return buffer_; }
+
     std::uint64_t bytes() const { return fed_; }            // fed so far
     std::uint64_t checkedBytes() const { return offset_; }  // of them, the header and all whole blocks
 

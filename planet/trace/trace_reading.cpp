@@ -5,7 +5,8 @@
 namespace planet {
 
 bool TraceBlocks::next(const TraceDecoder::Sink& sink) {
-    const Result<bool> more = file_.next(sink);
+    Result<bool> more = file_.next(sink);
+    if (more && !*more) more = file_.nextCut(sink);
     if (more) return *more;
     end_ = {more.error().message, true};
     return false;

@@ -24,7 +24,8 @@ public:
 
     // Moves to the first block.
     Result<void> begin(const TraceDecoder::Sink& sink) { return file_.seek(0, sink); }
-    // Decodes the next block. Returns false at the end, and where a block is damaged.
+    // Decodes the next block, or what there is of one that the file ends in. Returns false at the end, and where a block is
+    // damaged.
     bool next(const TraceDecoder::Sink& sink);
     const TraceEnd& end() const { return end_; }
 
@@ -34,7 +35,7 @@ private:
 };
 
 // Reads all blocks of a file. goOn is called before each; returning false ends with an Error of the kind Cancelled.
-// blockEnded is called after each whole block. Either can be empty.
+// blockEnded is called after each block. Either can be empty.
 Result<TraceEnd> readTrace(TraceFile& file, const std::function<bool()>& goOn, const TraceDecoder::Sink& sink,
                            const std::function<void()>& blockEnded = {});
 

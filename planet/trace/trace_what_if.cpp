@@ -44,6 +44,7 @@ Result<DescribedNodes> describedNodes(TraceFile& file, const std::function<bool(
     if (!file.seek(range ? range->last : 0, sink)) return nodes;
     for (auto more = file.next(sink); more && *more; more = file.next(sink))
         if (goOn && !goOn()) return cancelled();
+    (void)file.nextCut(sink);
     return nodes;
 }
 

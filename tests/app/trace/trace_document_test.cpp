@@ -194,6 +194,11 @@ TEST_F(TraceDocuments, damagedFileShowsWhatCameBefore) {
     TraceDocument cut(file_, false);
     EXPECT_TRUE(wait([&] { return !cut.problem().empty(); }));
     EXPECT_NE(cut.problem().find(file_.string()), std::string::npos) << cut.problem();
+    // The end of the last frame is missing.
+    const auto history = this->history(cut);
+    EXPECT_EQ(history->samples.size(), test::smallTraceFrames - 1);
+    for (const std::uint64_t frame : {59u, 60u, 20u, 59u, 1u})
+        EXPECT_EQ(read(cut, frame)->frame.number, std::min<std::uint64_t>(frame, test::smallTraceFrames - 1));
     TraceDocument missing(folder_.path() / "none.lodtrace", false);
     EXPECT_TRUE(wait([&] { return !missing.problem().empty(); }));
     EXPECT_FALSE(missing.isBusy());

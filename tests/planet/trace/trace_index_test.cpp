@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "planet/trace/trace_reading.h"
 #include "tests/support/trace_bytes.h"
 #include "tests/support/trace_events.h"
 
@@ -171,6 +172,77 @@ TEST_F(TraceFlight, aTruncatedFileKeepsTheBlocksBefore) {
                                         ": the trace ends " + std::to_string(size - last.offset) +
                                         " bytes into a block; what came before is valid");
     }
+}
+
+// The stream reader is the measure: it gives all events that are whole.
+TEST(TraceFile, whatCameBeforeTheCutIsReadAtEveryByte) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "whole.lodtrace", cut = folder / "cut.lodtrace";
+    {
+        test::OpenTrace trace(path.string());
+        for (std::uint64_t frame = 1; frame <= 6; ++frame) {
+            const auto node = test::sphereNode(frame);
+            lod_trace_node(trace, &node);
+            lod_trace_frame_begin(trace, static_cast<double>(frame));
+            const auto view = test::someView(static_cast<double>(frame));
+            lod_trace_view(trace, 0, &view);
+            lod_trace_drawn(trace, 0, frame, 0.5f);
+            lod_trace_frame_end(trace, 1, 1);
+            if (frame % 2 == 0) lod_trace_flush(trace, 10'000);
+        }
+    }
+    const std::string content = tests::contentOf(path);
+    for (std::size_t size = traceHeaderBytes; size < content.size(); ++size) {
+        std::ofstream(cut, std::ios::binary).write(content.data(), static_cast<std::streamsize>(size));
+        auto file = TraceFile::open(cut);
+        ASSERT_TRUE(file) << file.error().message;
+        std::vector<TraceEvent> events;
+        const auto sink = [&](const TraceEvent& event) { events.push_back(event); };
+        const auto end = readTrace(*file, {}, sink);
+        ASSERT_TRUE(end);
+        EXPECT_FALSE(end->isDamaged);
+        ASSERT_FALSE(events.empty());
+        events.erase(events.begin());  // TraceRestarted
+        const test::ReadTrace streamed = test::readTrace(test::bytesOf(content.substr(0, size)));
+        ASSERT_EQ(events, streamed.events) << size;
+        // Once only, and again after a seek.
+        EXPECT_EQ(file->nextCut(sink), false);
+        EXPECT_EQ(file->next(sink), false);
+        std::vector<TraceEvent> again;
+        ASSERT_TRUE(readTrace(*file, {}, [&](const TraceEvent& event) { again.push_back(event); }));
+        EXPECT_EQ(again.size(), events.size() + 1);
+    }
+}
+
+// The file may be opened while its last block is being written.
+TEST(TraceFile, aCutBlockThatBecomesWholeIsReadAfterASeek) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "whole.lodtrace", cut = folder / "cut.lodtrace";
+    {
+        test::OpenTrace trace(path.string());
+        const auto node = test::sphereNode(1);
+        lod_trace_node(trace, &node);
+        lod_trace_frame_begin(trace, 1);
+        lod_trace_frame_end(trace, 1, 1);
+    }
+    const std::string content = tests::contentOf(path);
+    std::ofstream growing(cut, std::ios::binary);
+    growing << content.substr(0, content.size() - 2) << std::flush;
+    auto file = TraceFile::open(cut);
+    ASSERT_TRUE(file);
+    std::size_t frames = 0;
+    const auto sink = [&](const TraceEvent& event) {
+        frames += std::holds_alternative<TraceFrameEnded>(event);
+    };
+    ASSERT_TRUE(readTrace(*file, {}, sink));
+    EXPECT_EQ(frames, 0u);
+    growing << content.substr(content.size() - 2) << std::flush;
+    ASSERT_TRUE(file->refresh());
+    EXPECT_FALSE(file->problem());
+    EXPECT_EQ(file->next(sink), false);
+    ASSERT_TRUE(file->seek(0, sink));
+    EXPECT_EQ(file->next(sink), true);
+    EXPECT_EQ(frames, 1u);
 }
 
 TEST_F(TraceFlight, aDamagedBlockIsAnErrorAndSeekingGoesOn) {

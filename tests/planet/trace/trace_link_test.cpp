@@ -619,7 +619,7 @@ TEST_F(TraceLinks, aBlockThatNeverComesWholeLeavesNoFile) {
     EXPECT_EQ(fileCountIn(folder.path()), 0u);
 }
 
-TEST_F(TraceLinks, aStreamThatIsCutOffKeepsItsWholeBlocks) {
+TEST_F(TraceLinks, aStreamThatIsCutOffKeepsAllThatCame) {
     const TraceBytes sent = traceOf(1000);
     const std::vector<TraceBlock> blocks = blocksOf(sent);
     ASSERT_GE(blocks.size(), 3u);
@@ -627,14 +627,32 @@ TEST_F(TraceLinks, aStreamThatIsCutOffKeepsItsWholeBlocks) {
     Listener engine;
     const auto link = linkTo(engine.port());
     engine.answer();
-    engine.say(std::span(sent).first(whole + 60));
+    engine.say(std::span(sent).first(whole + 2000));
     engine.hangUp();
     ASSERT_TRUE(holdsSoon([&] { return link->status().problem.has_value(); }));
     EXPECT_EQ(*link->status().problem,
-              fmt::format("127.0.0.1:{}: the stream ended 60 bytes into a block; what came before is in {}",
+              fmt::format("127.0.0.1:{}: the stream ended 2000 bytes into a block; what came is in {}",
                           engine.port(), (folder / "live.lodtrace").string()));
-    EXPECT_EQ(contentOf(folder / "live.lodtrace"), textOf(sent).substr(0, whole));
-    EXPECT_EQ(link->status().file.bytes, whole);
+    EXPECT_EQ(contentOf(folder / "live.lodtrace"), textOf(sent).substr(0, whole + 2000));
+    EXPECT_EQ(link->status().file.bytes, whole + 2000);
+    const std::uint64_t frames = blocks[0].header.frames + blocks[1].header.frames;
+    EXPECT_GT(link->status().file.frames, frames + 1);
+    // The last frame lacks its end.
+    EXPECT_EQ(framesOf(folder / "live.lodtrace").frames + 1, link->status().file.frames);
+}
+
+// An engine that is killed while it sends its first block has told its nodes already.
+TEST_F(TraceLinks, aStreamThatIsCutOffInItsFirstBlockIsKept) {
+    const TraceBytes sent = traceOf(10);
+    Listener engine;
+    const auto link = linkTo(engine.port());
+    engine.answer();
+    engine.say(std::span(sent).first(sent.size() - 1));
+    engine.hangUp();
+    ASSERT_TRUE(holdsSoon([&] { return link->status().problem.has_value(); }));
+    EXPECT_EQ(contentOf(folder / "live.lodtrace"), textOf(sent).substr(0, sent.size() - 1));
+    EXPECT_EQ(link->status().file.nodes, 20u);
+    EXPECT_EQ(link->status().file.frames, 10u);
 }
 
 TEST_F(TraceLinks, aDamagedStreamKeepsWhatCameBeforeAndConnectsAgain) {
