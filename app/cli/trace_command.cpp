@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -45,14 +46,15 @@ double percent(std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
+// Return NaN if no value is known.
 double worstErrorPx(const TraceReport& report) {
-    double worst = 0;
+    double worst = std::numeric_limits<double>::quiet_NaN();
     for (const planet::TraceViewReport& view : report.views) worst = std::fmax(worst, view.worstErrorPx);
     return worst;
 }
 
 double worstLatencyMs(const TraceReport& report) {
-    double worst = 0;
+    double worst = std::numeric_limits<double>::quiet_NaN();
     for (const planet::TraceKindReport& kind : report.kinds)
         worst = std::fmax(worst, 1000 * kind.latencyS.p99);
     return worst;
@@ -187,18 +189,28 @@ Json jsonOf(const TraceReport& report, const planet::TraceFault& fault) {
 
 std::vector<std::string> brokenLimits(const TraceLimits& limits, const TraceReport& report) {
     std::vector<std::string> broken;
-    const auto check = [&](const auto& limit, double value, const char* what) {
-        if (limit && value > static_cast<double>(*limit))
+    // missing: why the value is not known; nullptr: it is.
+    const auto check = [&](const auto& limit, double value, const char* what, const char* missing) {
+        if (!limit) return;
+        if (report.frames == 0) missing = "the trace has no frame";
+        if (missing)
+            broken.push_back(fmt::format("{} cannot be checked: {}", what, missing));
+        else if (value > static_cast<double>(*limit))
             broken.push_back(
                 fmt::format("{} is {:g}; expected at most {:g}", what, value, static_cast<double>(*limit)));
     };
-    check(limits.faults, static_cast<double>(report.faults.size()), "the number of faults");
-    check(limits.errorPx, worstErrorPx(report), "the largest error of a drawn node, in pixels,");
-    check(limits.latencyMs, worstLatencyMs(report), "the 99th percentile of the latency, in ms,");
-    check(limits.thrashes, static_cast<double>(thrashesOf(report)), "the number of thrashes");
+    const double errorPx = worstErrorPx(report), latencyMs = worstLatencyMs(report);
+    const bool hasTimes = report.cpuMs.count + report.gpuMs.count > 0;
+    check(limits.faults, static_cast<double>(report.faults.size()), "the number of faults", nullptr);
+    check(limits.errorPx, errorPx, "the largest error of a drawn node, in pixels,",
+          std::isnan(errorPx) ? "no error of a drawn node is known" : nullptr);
+    check(limits.latencyMs, latencyMs, "the 99th percentile of the latency, in ms,",
+          std::isnan(latencyMs) ? "no request arrived" : nullptr);
+    check(limits.thrashes, static_cast<double>(thrashesOf(report)), "the number of thrashes",
+          report.views.empty() ? "the trace has no view" : nullptr);
     check(limits.overBudget, percent(report.framesOverBudget, report.frames),
-          "the percentage of frames over the budget");
-    check(limits.dropped, static_cast<double>(report.droppedEvents), "the number of lost events");
+          "the percentage of frames over the budget", hasTimes ? nullptr : "the engine told no times");
+    check(limits.dropped, static_cast<double>(report.droppedEvents), "the number of lost events", nullptr);
     return broken;
 }
 
@@ -260,6 +272,25 @@ std::optional<std::string> brokenCount(const std::optional<int>& limit, std::uin
     return fmt::format("{} is {}; expected at most {}", what, count, *limit);
 }
 
+// Frames that only one trace has differ, too.
+std::optional<std::string> brokenDiffering(const std::optional<int>& limit,
+                                           const planet::TraceComparison& compared) {
+    constexpr const char* what = "the number of frames that draw other nodes, or that only one trace has,";
+    if (limit && compared.frames == compared.skippedFrames)
+        return fmt::format("{} cannot be checked: no frame could be compared", what);
+    return brokenCount(limit, compared.framesThatDiffer + compared.framesOnlyInA + compared.framesOnlyInB,
+                       what);
+}
+
+// Returns a sentence if the engine's choice contradicts its own numbers too often, or if that is not known.
+std::optional<std::string> brokenDisagreeing(const std::optional<int>& limit,
+                                             const planet::TraceWhatIfReport& report) {
+    constexpr const char* what = "the number of frames that contradict the engine's own numbers";
+    const char* const why = planet::whyTraceIsNotJudged(report);
+    if (limit && why) return fmt::format("{} cannot be checked: {}", what, why);
+    return brokenCount(limit, report.framesThatDisagree, what);
+}
+
 bool asksWhatIf(const TraceCommandOptions& options) {
     return !options.whatIf.tausPx.empty() || options.whatIf.goal || options.limits.disagreeing;
 }
@@ -301,8 +332,7 @@ Result<bool> runTraceCompare(const TraceCommandOptions& options) {
     const Result<TraceReport> report = planet::reportOfTrace(*b, options.budgetMs, options.faults, goOn);
     if (!report) return tl::unexpected(report.error());
     std::vector<std::string> broken = brokenLimits(options.limits, *report);
-    if (const auto sentence = brokenCount(options.limits.differing, compared->framesThatDiffer,
-                                          "the number of frames that draw other nodes"))
+    if (const auto sentence = brokenDiffering(options.limits.differing, *compared))
         broken.push_back(*sentence);
     const std::array files = {options.file.string(), options.other.string()};
     if (!options.report.json) printTraceComparison(files, *compared, options.worst);
@@ -333,9 +363,7 @@ Result<bool> runTrace(const TraceCommandOptions& options) {
     if (asksWhatIf(options)) {
         const Result<TraceWhatIfFound> found = whatIf(options, *file, goOn);
         if (!found) return tl::unexpected(found.error());
-        if (const auto sentence =
-                brokenCount(options.limits.disagreeing, found->report.framesThatDisagree,
-                            "the number of frames that contradict the engine's own numbers"))
+        if (const auto sentence = brokenDisagreeing(options.limits.disagreeing, found->report))
             broken.push_back(*sentence);
         if (!options.report.json) printWhatIf(*found, options.worst);
         json["what_if"] = whatIfJson(*found);

@@ -14,7 +14,7 @@
 
 namespace worldy {
 
-// Limits of a check. An unset one is not checked.
+// Limits of a check. An unset one is not checked. One for which the trace tells no value does not hold.
 struct TraceLimits {
     std::optional<int> faults;         // of all kinds, >= 0
     std::optional<double> errorPx;     // the worst of a drawn node, in any view, pixels, >= 0
@@ -22,7 +22,8 @@ struct TraceLimits {
     std::optional<double> thrashes;    // over all views, >= 0
     std::optional<double> overBudget;  // share of the frames, percent, [0, 100]
     std::optional<int> dropped;        // events that the trace lost, >= 0
-    std::optional<int> differing;      // frames in which the other trace draws other nodes, >= 0
+    std::optional<int>
+        differing;  // frames in which the other trace draws other nodes, or that only one has, >= 0
     std::optional<int>
         disagreeing;  // frames in which the engine's choice is not what its own numbers say, >= 0
 };
@@ -53,7 +54,7 @@ planet::Result<bool> runTrace(const TraceCommandOptions& options);
 // The parts of runTrace().
 void printTrace(const TraceCommandOptions& options, const planet::TraceReport& report);
 nlohmann::ordered_json traceJson(const TraceCommandOptions& options, const planet::TraceReport& report);
-// Returns a sentence for each limit that does not hold.
+// Returns a sentence for each limit that does not hold or cannot be checked.
 std::vector<std::string> brokenLimits(const TraceLimits& limits, const planet::TraceReport& report);
 
 }  // namespace worldy

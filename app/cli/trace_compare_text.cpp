@@ -90,8 +90,10 @@ Json jsonOf(const TraceComparison& found, const TraceFrameDifference& each) {
 void printTraceComparison(const std::array<std::string, 2>& files, const TraceComparison& found, int worst) {
     fmt::print("A {}\nB {}\n{} frames are in both, {} only in A, {} only in B\n", files[0], files[1],
                found.frames, found.framesOnlyInA, found.framesOnlyInB);
+    const bool byTime = found.match == planet::TraceMatch::Time;
     if (found.frames == 0)
-        fmt::print("No frame has the same time in both. --match number matches frames by their numbers.\n");
+        fmt::print("No frame has the same {} in both. --match {} matches frames by their {}.\n",
+                   byTime ? "time" : "number", byTime ? "number" : "time", byTime ? "numbers" : "times");
     if (found.skippedFrames > 0)
         fmt::print("{} frames lack events in one of the two, and are not compared\n", found.skippedFrames);
     printTimes("CPU time", found.cpuMsA, found.cpuMsB);
@@ -107,7 +109,9 @@ void printTraceComparison(const std::array<std::string, 2>& files, const TraceCo
                        view.framesThatDiffer, view.onlyInA, view.onlyInB);
     }
     if (found.framesThatDiffer == 0) {
-        if (found.frames > found.skippedFrames) fmt::print("\nBoth draw the same nodes in all frames.\n");
+        if (found.frames > found.skippedFrames)
+            fmt::print("\nBoth draw the same nodes in all frames{}.\n",
+                       found.framesOnlyInA + found.framesOnlyInB > 0 ? " that both have" : "");
         return;
     }
     fmt::print("\n{} of {} frames differ. The first one:\n", found.framesThatDiffer, found.frames);

@@ -70,10 +70,8 @@ std::vector<const planet::TraceDisagreement*> realDisagreements(const TraceWhatI
 void printDisagreements(const TraceWhatIfReport& report, int worst) {
     const auto real = realDisagreements(report);
     const std::size_t fades = report.disagreements.size() - real.size();
-    const bool isJudged =
-        std::ranges::any_of(report.views, [](const auto& view) { return view.own.totals.frames > 0; });
-    if (!isJudged) {
-        fmt::print("\nThe engine told no tau, so its choice is not judged.\n");
+    if (const char* const why = planet::whyTraceIsNotJudged(report)) {
+        fmt::print("\nThe engine's choice is not judged: {}.\n", why);
         return;
     }
     if (real.empty())

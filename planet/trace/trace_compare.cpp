@@ -196,6 +196,7 @@ private:
 Result<TraceComparison> compareTraces(TraceFile& a, TraceFile& b, const TraceCompareSettings& settings,
                                       const std::function<bool()>& goOn) {
     TraceComparison found;
+    found.match = settings.match;
     ComparedTrace traceA(a), traceB(b);
     Comparer comparer(settings, found);
     AscendingTimes timesA, timesB;

@@ -51,6 +51,7 @@ struct TraceViewComparison {
 };
 
 struct TraceComparison {
+    TraceMatch match = TraceMatch::Time;
     std::optional<TraceDescription> descriptionA{}, descriptionB{};
     std::uint64_t frames = 0;  // that both have
     std::uint64_t framesOnlyInA = 0, framesOnlyInB = 0;

@@ -213,7 +213,7 @@ void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, 
         it.limitPx = seen.limitPx;
     }
     const std::string frames = traceFramesText(it.frames, it.firstFrame, it.lastFrame);
-    const std::string name = traceIdText(state.description().value_or(TraceDescription{}), it.node);
+    const std::string name = traceIdText(state.descriptionOrDefault(), it.node);
     const std::uint32_t level = state.nodes()[seen.node].node.level;
     const double maxLevel =
         state.setting("max_level", view).value_or(std::numeric_limits<double>::infinity());
@@ -246,6 +246,20 @@ TraceWhatIfReport TraceWhatIf::finish(const TraceState& state) {
     }
     std::ranges::sort(report_.views, {}, &TraceWhatIfView::view);
     return std::move(report_);
+}
+
+const char* whyTraceIsNotJudged(const TraceWhatIfView& view) {
+    if (view.own.totals.frames == 0) return "the engine told no tau";
+    return std::isnan(view.engine.worstErrorPx) ? "no error of a drawn node is known" : nullptr;
+}
+
+const char* whyTraceIsNotJudged(const TraceWhatIfReport& report) {
+    const char* why = "no frame is complete";
+    for (const TraceWhatIfView& view : report.views) {
+        why = whyTraceIsNotJudged(view);
+        if (!why) return nullptr;
+    }
+    return why;
 }
 
 Result<TraceWhatIfReport> whatIfOfTrace(TraceFile& file, std::span<const TraceSelectorSettings> settings,

@@ -90,6 +90,10 @@ struct TraceWhatIfReport {
     bool isDamaged = false;                          // of the problem: a block has wrong bytes
 };
 
+// Returns why it is not known whether the engine's choice is what its own numbers say; nullptr if it is. Pure.
+const char* whyTraceIsNotJudged(const TraceWhatIfReport& report);
+const char* whyTraceIsNotJudged(const TraceWhatIfView& view);
+
 // Takes the frames of a trace in order. One thread at a time.
 class TraceWhatIf {
 public:

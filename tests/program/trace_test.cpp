@@ -1,9 +1,14 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "planet/trace/lod_trace.h"
 #include "tests/program/small_planet.h"
+#include "tests/support/small_trace.h"
 
 namespace worldy {
 namespace {
@@ -28,6 +33,20 @@ protected:
                            "fly planet.chk --flight flight.toml --frames 40 --size 320x200 --tau 1 --trace "
                            "down.lodtrace -o fly.json");
         ASSERT_EQ(flown_.exitCode, 0) << flown_.errors;
+    }
+    // Writes a trace with τ and without errors, times and paging.
+    void writeBareTrace() const {
+        std::array<char, 512> error{};
+        lod_trace* const trace =
+            lod_trace_open((folder_.path() / "bare.lodtrace").c_str(), nullptr, error.data(), error.size());
+        ASSERT_NE(trace, nullptr) << error.data();
+        lod_trace_setting(trace, LOD_TRACE_TAU, 2);
+        for (int frame = 0; frame < 3; ++frame) {
+            lod_trace_frame_begin(trace, frame);
+            lod_trace_drawn(trace, 0, 7, 0);
+            lod_trace_frame_end(trace, -1, -1);
+        }
+        lod_trace_close(trace);
     }
     json trace(const std::string& options = "") {
         const Ran ran = runWorldy(folder_, "trace down.lodtrace --json " + options);
@@ -141,6 +160,53 @@ TEST_F(TraceCommand, comparesTwoTracesOfAFlight) {
     EXPECT_THAT(limited.output, HasSubstr("B alone draws"));
     EXPECT_EQ(runWorldy(folder_, "trace down.lodtrace coarse.lodtrace --what-if 2").exitCode, 2);
     EXPECT_EQ(runWorldy(folder_, "trace down.lodtrace --max-differing 2").exitCode, 2);
+}
+
+TEST_F(TraceCommand, framesThatOnlyOneTraceHasDiffer) {
+    test::writeSmallTrace(folder_.path() / "a.lodtrace");
+    test::writeSmallTrace(folder_.path() / "b.lodtrace", 40);
+    const auto compared = [&](const std::string& options) {
+        return runWorldy(folder_, "trace " + options).exitCode;
+    };
+    EXPECT_EQ(compared("a.lodtrace b.lodtrace --max-differing 20"), 0);
+    EXPECT_EQ(compared("a.lodtrace b.lodtrace --max-differing 19"), 1);
+    EXPECT_EQ(compared("b.lodtrace a.lodtrace --max-differing 19"), 1);
+}
+
+TEST_F(TraceCommand, tracesWithoutACommonFrameDoNotAgree) {
+    test::writeSmallTrace(folder_.path() / "a.lodtrace");
+    test::writeSmallTrace(folder_.path() / "none.lodtrace", 0);
+    for (const char* match : {"time", "number"}) {
+        const Ran ran = runWorldy(
+            folder_, fmt::format("trace a.lodtrace none.lodtrace --max-differing 1000 --match {}", match));
+        EXPECT_EQ(ran.exitCode, 1);
+        EXPECT_THAT(ran.errors, HasSubstr("cannot be checked: no frame could be compared"));
+        EXPECT_THAT(ran.output, HasSubstr(fmt::format("No frame has the same {} in both", match)));
+    }
+    EXPECT_EQ(runWorldy(folder_, "trace a.lodtrace none.lodtrace").exitCode, 0);
+}
+
+// A check that nothing was measured for must not pass.
+TEST_F(TraceCommand, limitsWithoutAValueDoNotHold) {
+    test::writeSmallTrace(folder_.path() / "none.lodtrace", 0);
+    const Ran empty = runWorldy(folder_, "trace none.lodtrace --max-faults 0 --max-dropped 0");
+    EXPECT_EQ(empty.exitCode, 1);
+    EXPECT_THAT(empty.errors, HasSubstr("the number of faults cannot be checked: the trace has no frame"));
+    EXPECT_THAT(empty.errors, HasSubstr("the number of lost events cannot be checked"));
+    EXPECT_EQ(runWorldy(folder_, "trace none.lodtrace").exitCode, 0);
+    writeBareTrace();
+    for (const auto& [option, why] :
+         {std::pair{"--max-error-px 1e6", "no error of a drawn node is known"},
+          std::pair{"--max-latency-ms 1e6", "no request arrived"},
+          std::pair{"--max-over-budget 100", "the engine told no times"},
+          std::pair{"--max-disagreeing 0", "no error of a drawn node is known"}}) {
+        const Ran ran = runWorldy(folder_, std::string("trace bare.lodtrace ") + option);
+        EXPECT_EQ(ran.exitCode, 1) << option;
+        EXPECT_THAT(ran.errors, HasSubstr(std::string("cannot be checked: ") + why));
+    }
+    EXPECT_EQ(runWorldy(folder_, "trace bare.lodtrace --max-faults 0 --max-thrashes 0").exitCode, 0);
+    const Ran judged = runWorldy(folder_, "trace bare.lodtrace --what-if 2");
+    EXPECT_THAT(judged.output, HasSubstr("choice is not judged: no error of a drawn node is known"));
 }
 
 TEST_F(TraceCommand, refusesWhatIsNoTraceAndReplacesNothingElse) {

@@ -187,6 +187,8 @@ void disagreementRow(const planet::TraceDisagreement& each, const EditorView& vi
 std::string disagreementSummary(const planet::TraceWhatIfReport& report, const planet::TraceWhatIfView& view,
                                 std::size_t real, std::size_t fades) {
     if (view.own.totals.frames == 0) return inFont("The engine told no \u03c4, so its choice is not judged.");
+    if (planet::whyTraceIsNotJudged(view))
+        return "No error of a drawn node is known, so the engine's choice is not judged.";
     std::string text = real == 0
                            ? "The engine's choice is what its own numbers say."
                            : fmt::format("The engine's choice is not what its own numbers say, {} time{}.",
