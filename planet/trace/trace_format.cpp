@@ -40,6 +40,19 @@ enum class Event : std::uint8_t {
 constexpr std::size_t viewWords = 39;  // eye 3, view 16, projection 16, viewport 4
 constexpr std::size_t viewDoubles = 35;
 
+// Returns a text with spaces for control characters, also those that UTF-8 codes as C2 80 to C2 9F: it goes to terminals and
+// into lists whose entries end with a zero.
+std::string printable(std::string text) {
+    const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool isLong =
+            byteAt(i) == 0xC2 && i + 1 < text.size() && byteAt(i + 1) >= 0x80 && byteAt(i + 1) < 0xA0;
+        if (isLong) text[i + 1] = ' ';
+        if (isLong || byteAt(i) < 0x20 || byteAt(i) == 0x7F) text[i] = ' ';
+    }
+    return text;
+}
+
 // Reads values; after the first that is missing or invalid it gives zeros, and `problem` says what was wrong.
 class Cursor {
 public:
@@ -89,7 +102,7 @@ public:
     std::string text(std::size_t most) {
         const auto length = atMost(varint(), most, "a text is too long");
         const auto taken = take(length);
-        return {reinterpret_cast<const char*>(taken.data()), taken.size()};
+        return printable({reinterpret_cast<const char*>(taken.data()), taken.size()});
     }
     glm::dvec3 vector() {
         glm::dvec3 value;

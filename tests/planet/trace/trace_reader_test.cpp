@@ -247,6 +247,18 @@ TEST(TraceReader, givesTheBytesOfCheckedPartsOnly) {
     EXPECT_EQ(reader.checkedBytes() + damaged.size(), reader.bytes());
 }
 
+// Names go to terminals, and into lists whose entries end with a zero.
+TEST(TraceReader, controlCharactersOfTextsAreSpaces) {
+    const TraceBytes name = bytes({2, 0, 11, 'a', 0, 0x1B, '\n', 0x7F, 0xC2, 0x9B, 0xCF, 0x84, 0xC2, 0xB5});
+    const TraceBytes message = bytes({15, 0, 3, 'a', 9, 'b'});
+    const ReadTrace read = readTrace(joined({traceHeader(), traceBlock(name, message)}));
+    EXPECT_EQ(read.problem, "");
+    ASSERT_EQ(eventsOf<TraceNamed>(read.events).size(), 1u);
+    EXPECT_EQ(eventsOf<TraceNamed>(read.events)[0].name, "a      \xCF\x84\xC2\xB5");
+    ASSERT_EQ(eventsOf<TraceMessage>(read.events).size(), 1u);
+    EXPECT_EQ(eventsOf<TraceMessage>(read.events)[0].text, "a b");
+}
+
 // A header may claim a large block; memory grows only with the bytes that come.
 TEST(TraceReader, aLargeBlockIsAwaitedWithoutItsMemory) {
     TraceReader reader("made", [](const TraceEvent&) {});

@@ -206,7 +206,8 @@ void latencies(const EditorView& view, TracePagingPanelState& state) {
             if (kinds[i].kind == state.kind) chosen = static_cast<int>(i);
         }
         choiceIndex("Latencies of", chosen, 0, items.c_str(), "Kind of data.");
-        state.kind = kinds[static_cast<std::size_t>(chosen)].kind;
+        // A name with a zero would be two items.
+        state.kind = kinds[std::min(static_cast<std::size_t>(chosen), kinds.size() - 1)].kind;
     } else if (kinds.size() == 1) {
         state.kind = kinds[0].kind;
     }

@@ -108,7 +108,10 @@ void counterChoice(const EditorView& view, TraceTimelineState& timeline) {
         names.push_back(name);
         items += name + '\0';
     }
-    if (choiceIndex("Counter", chosen, 0, items.c_str(), "A counter of the engine, as a strip of its own."))
+    const bool isChosen =
+        choiceIndex("Counter", chosen, 0, items.c_str(), "A counter of the engine, as a strip of its own.");
+    // A name with a zero would be two items.
+    if (isChosen && static_cast<std::size_t>(chosen) < names.size())
         timeline.counter = names[static_cast<std::size_t>(chosen)];
 }
 
