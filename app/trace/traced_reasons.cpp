@@ -154,9 +154,8 @@ void sayError(Reasons& why) {
     const TracedNode& node = why.node;
     if (std::isnan(node.errorPx)) return;
     if (node.isErrorTold) why.say("The engine told the error on screen itself.");
-    if (!why.frame.description || !why.view.info ||
-        why.frame.description->error == planet::TraceErrorUnit::Pixels)
-        return;
+    const planet::TraceDescription description = why.frame.description.value_or(planet::TraceDescription{});
+    if (!why.view.info || description.error == planet::TraceErrorUnit::Pixels) return;
     const planet::TraceView& camera = *why.view.info;
     const double distance = planet::traceDistance(node.node.bounds, camera.eye);
     if (std::isnan(distance)) return;
@@ -164,7 +163,7 @@ void sayError(Reasons& why) {
     why.say("By its bounds: error K' / D = {} · {:.0f} px / {} = {}.",
             tracedLengthText(node.node.error, why.frame.description), scalePx,
             tracedLengthText(distance, why.frame.description),
-            px(planet::traceErrorPx(*why.frame.description, node.node, camera)));
+            px(planet::traceErrorPx(description, node.node, camera)));
 }
 
 void sayData(Reasons& why) {

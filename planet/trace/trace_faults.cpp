@@ -17,8 +17,7 @@ namespace {
 constexpr int mostAncestors = 64;
 
 std::string nameOf(const TraceState& state, TraceNodeIndex node) {
-    static const TraceDescription undescribed;
-    return traceIdText(state.description().value_or(undescribed), state.nodes()[node].node.id);
+    return traceIdText(state.descriptionOrDefault(), state.nodes()[node].node.id);
 }
 
 // Returns whether a point is inside the sides of the frustum and before the eye.
@@ -41,7 +40,7 @@ bool isVisible(const TraceState& state, const TraceView& view, TraceNodeIndex no
     const TraceBounds& bounds = state.nodes()[node].node.bounds;
     if (bounds.shape == TraceBoundsShape::None) return false;
     return isInFrustum(view, bounds.centre) &&
-           (!state.description() || isBeforeHorizon(*state.description(), view, bounds.centre));
+           isBeforeHorizon(state.descriptionOrDefault(), view, bounds.centre);
 }
 
 // Marks a node; returns false if it was marked in this frame.
@@ -366,7 +365,7 @@ void TraceFaultFinder::finish(const TraceState& state) {
 // Compares errors with τ, as the engine's selection must have: split above τ, merge below τ (1 - hysteresis).
 void TraceFaultFinder::judgeErrors(const TraceState& state, const TraceFrameView& view, ViewMemory& memory) {
     const auto tau = state.setting("tau", view.view);
-    if (!tau || !view.info || !state.description()) return;
+    if (!tau || !view.info) return;
     ErrorTally tally;
     tally.tauPx = *tau;
     tally.mergePx = *tau * (1 - state.setting("hysteresis", view.view).value_or(0));
@@ -393,7 +392,7 @@ void TraceFaultFinder::judgeCoarse(const TraceState& state, const TraceFrameView
                                    const ViewMemory& memory, const TraceDrawn& drawn, ErrorTally& tally) {
     const TraceNodeState& node = state.nodes()[drawn.node];
     const double error = drawn.hasErrorPx ? static_cast<double>(drawn.errorPx)
-                                          : traceErrorPx(*state.description(), node.node, *view.info);
+                                          : traceErrorPx(state.descriptionOrDefault(), node.node, *view.info);
     if (!(error > tally.tauPx * (1 + limits_.errorSlack)) || node.node.level >= tally.maxLevel ||
         node.children.empty())
         return;
@@ -425,7 +424,7 @@ void TraceFaultFinder::judgeFine(const TraceState& state, const TraceFrameView& 
     const TraceNodeIndex parent = state.nodes()[node].parent;
     if (parent == noTraceNode) return;
     ++tally.withParent;
-    const double error = traceErrorPx(*state.description(), state.nodes()[parent].node, *view.info);
+    const double error = traceErrorPx(state.descriptionOrDefault(), state.nodes()[parent].node, *view.info);
     if (!(error < tally.mergePx * (1 - limits_.errorSlack))) return;
     if (tally.fadeWaitS > 0) {
         const double now = state.frame().timeS;
@@ -450,8 +449,8 @@ void TraceFaultFinder::reportCoarse(const TraceState& state, int view, const Err
     fault.sentence = fmt::format(
         "selection ignores its own tau: {} nodes exceed it for more than {} s although their children are "
         "there, {} with {:.2f} px, {}; expected at most {} px",
-        fault.count, limits_.ignoredAfterS + tally.fadeWaitS, traceIdText(*state.description(), fault.node),
-        fault.value, framesOf(fault), tally.tauPx);
+        fault.count, limits_.ignoredAfterS + tally.fadeWaitS,
+        traceIdText(state.descriptionOrDefault(), fault.node), fault.value, framesOf(fault), tally.tauPx);
 }
 
 void TraceFaultFinder::reportFine(const TraceState& state, const TraceFrameView& view,
@@ -466,7 +465,7 @@ void TraceFaultFinder::reportFine(const TraceState& state, const TraceFrameView&
     fault.sentence = fmt::format(
         "selection ignores its own tau: {} of {} drawn nodes are finer than necessary, the parent of {} has "
         "{:.3f} px, {}; expected more than {:.3f} px",
-        tally.fine, view.drawn.size(), traceIdText(*state.description(), fault.node), fault.value,
+        tally.fine, view.drawn.size(), traceIdText(state.descriptionOrDefault(), fault.node), fault.value,
         framesOf(fault), tally.mergePx);
 }
 
@@ -481,7 +480,7 @@ void TraceFaultFinder::step(const TraceState& state, int view, TraceNodeIndex fi
 
 void TraceFaultFinder::findSteps(const TraceState& state, const TraceFrameView& view,
                                  const ViewMemory& memory) {
-    const bool hasPlaces = state.description() && state.description()->ids == TraceIds::Quadtree;
+    const bool hasPlaces = state.descriptionOrDefault().ids == TraceIds::Quadtree;
     if (hasPlaces) {
         findStepsById(state, view.view, memory);
     } else {

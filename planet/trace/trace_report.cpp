@@ -92,8 +92,8 @@ void TraceReporter::addErrors(const TraceState& state, const TraceFrameView& fra
         double errorPx = std::numeric_limits<double>::quiet_NaN();
         if (each.hasErrorPx)
             errorPx = static_cast<double>(each.errorPx);
-        else if (node.isTold && frame.info && state.description())
-            errorPx = traceErrorPx(*state.description(), node, *frame.info);
+        else if (node.isTold && frame.info)
+            errorPx = traceErrorPx(state.descriptionOrDefault(), node, *frame.info);
         if (std::isnan(errorPx)) continue;
         isOver = isOver || (tauPx && errorPx > *tauPx);
         if (errorPx <= report.worstErrorPx) continue;
@@ -134,7 +134,7 @@ void TraceReporter::addPaged(const TraceState& state, const TracePagedStep& step
         case TraceStep::Arrived:
             ++report.arrived;
             if (wasPending && step.before.requestedNs != 0) kind->latencyS.push_back(since());
-            if (state.description() && state.description()->requests == TraceRequests::Children) {
+            if (state.descriptionOrDefault().requests == TraceRequests::Children) {
                 for (const TraceNodeIndex child : state.nodes()[step.event.node].children)
                     report.arrivedBytes += state.nodes()[child].node.bytes;
             } else {

@@ -66,11 +66,11 @@ bool isSeen(const TraceState& state, const TraceEngineFrame& engine, TraceNodeIn
     const TraceBounds& bounds = state.nodes()[node].node.bounds;
     if (!engine.view().info || bounds.shape == TraceBoundsShape::None) return true;
     if (isOutsideFrustum(*engine.view().info, bounds)) return false;
-    return !state.description() || !isBelowHorizon(*state.description(), *engine.view().info, bounds);
+    return !isBelowHorizon(state.descriptionOrDefault(), *engine.view().info, bounds);
 }
 
 bool requestsChildren(const TraceState& state) {
-    return state.description() && state.description()->requests == TraceRequests::Children;
+    return state.descriptionOrDefault().requests == TraceRequests::Children;
 }
 
 // Returns the bytes that a split needs in addition.
@@ -159,12 +159,12 @@ double TraceEngineFrame::errorPx(const TraceState& state, TraceNodeIndex node, b
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const TraceNode& told = state.nodes()[node].node;
     double computed = unknown;
-    if (told.isTold && state.description()) {
-        const bool isPixels = state.description()->error == TraceErrorUnit::Pixels;
+    if (told.isTold) {
+        const bool isPixels = state.descriptionOrDefault().error == TraceErrorUnit::Pixels;
         if (isPixels) {
             if (isVisited && told.error != 0) computed = told.error;
         } else if (view_->info) {
-            computed = traceErrorPx(*state.description(), told, *view_->info);
+            computed = traceErrorPx(state.descriptionOrDefault(), told, *view_->info);
         }
     }
     const auto found = toldPx_.find(node);

@@ -165,6 +165,11 @@ void TraceState::on(const TraceRestored& restored) {
     setData(restored.kind, data, next);
 }
 
+const TraceDescription& TraceState::descriptionOrDefault() const {
+    static const TraceDescription undescribed;
+    return description_ ? *description_ : undescribed;
+}
+
 TraceNodeIndex TraceState::find(std::uint64_t id) const {
     const auto found = byId_.find(id);
     return found == byId_.end() ? noTraceNode : found->second;
@@ -180,7 +185,7 @@ std::optional<double> TraceState::setting(std::string_view name, int view) const
 }
 
 TraceNodeIndex TraceState::loaderOf(TraceNodeIndex node) const {
-    const bool isByParent = description_ && description_->requests == TraceRequests::Children;
+    const bool isByParent = descriptionOrDefault().requests == TraceRequests::Children;
     return isByParent ? nodes_[node].parent : node;
 }
 

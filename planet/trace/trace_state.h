@@ -79,6 +79,8 @@ public:
 
     const TraceFrame& frame() const { return done_; }
     const std::optional<TraceDescription>& description() const { return description_; }
+    // Returns the description, or if the engine told none the one with all defaults: errors are world units, ids are opaque.
+    const TraceDescription& descriptionOrDefault() const;
     const std::vector<TraceNodeState>& nodes() const { return nodes_; }
     TraceNodeIndex find(std::uint64_t id) const;  // noTraceNode: unknown
     const std::vector<std::string>& names() const { return names_; }

@@ -10,6 +10,9 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <random>
+#include <set>
 
 #include "planet/trace/trace_index.h"
 #include "tests/support/trace_events.h"
@@ -169,10 +172,11 @@ TraceNode quadtreeNode(std::uint32_t level, std::uint32_t x, std::uint32_t y) {
 // Makes traces of a quadtree of four levels, frame by frame.
 class MadeTrace {
 public:
-    explicit MadeTrace(TraceIds ids = TraceIds::Quadtree) {
+    // ids: nothing if the engine describes nothing.
+    explicit MadeTrace(std::optional<TraceIds> ids = TraceIds::Quadtree) {
         TraceDescription description;
-        description.ids = ids;
-        add(description);
+        description.ids = ids.value_or(TraceIds::Opaque);
+        if (ids) add(description);
         TraceNodeIndex index = 0;
         for (std::uint32_t level = 0; level < 4; ++level)
             for (std::uint32_t y = 0; y < 1u << level; ++y)
@@ -302,7 +306,11 @@ TEST(TraceFaults, oneSplitAndMergeIsNoThrash) {
     for (const std::uint32_t level : {1u, 2u, 1u}) trace.frame(wholeLevel(trace, level));
     EXPECT_EQ(trace.kinds(), std::vector<Kind>{});
     for (const std::uint32_t level : {2u, 1u}) trace.frame(wholeLevel(trace, level));
-    EXPECT_EQ(trace.kinds(), std::vector<Kind>(4, Kind::Thrash));
+    ASSERT_EQ(trace.kinds(), std::vector<Kind>(4, Kind::Thrash));
+    // The first split was right; frame 3 takes it back.
+    EXPECT_EQ(trace.finder.faults()[0].firstFrame, 3u);
+    EXPECT_EQ(trace.finder.faults()[0].lastFrame, 5u);
+    EXPECT_EQ(trace.finder.faults()[0].value, 3);
 }
 
 TEST(TraceFaults, slowChangesAreNoThrash) {
@@ -320,6 +328,14 @@ TEST(TraceFaults, errorsAreComparedWithTauOfTheView) {
     for (int frame = 0; frame < 60; ++frame) trace.frame(wholeLevel(trace, 1));
     ASSERT_EQ(trace.kinds(), std::vector<Kind>{Kind::TooCoarse});
     EXPECT_EQ(trace.finder.faults()[0].limit, 600);
+    EXPECT_EQ(trace.finder.faults()[0].count, 4u);
+}
+
+TEST(TraceFaults, anEngineThatDescribesNothingIsJudgedByWorldUnits) {
+    MadeTrace trace(std::nullopt);
+    trace.set("tau", 600);
+    for (int frame = 0; frame < 60; ++frame) trace.frame(wholeLevel(trace, 1));
+    ASSERT_EQ(trace.kinds(), std::vector<Kind>{Kind::TooCoarse});
     EXPECT_EQ(trace.finder.faults()[0].count, 4u);
 }
 

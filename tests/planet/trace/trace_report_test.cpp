@@ -165,6 +165,24 @@ TEST_F(TraceReports, latenciesAreThoseOfTheMonotonicClock) {
     EXPECT_FLOAT_EQ(static_cast<float>(kind.waitS.median), 0.25f);
 }
 
+TEST(TraceReporter, errorsOfAnEngineThatDescribesNothingAreWorldUnits) {
+    TraceState state;
+    TraceReporter reporter(16, {});
+    TraceNode node = reportedNode(1);
+    node.bounds = {.shape = TraceBoundsShape::Sphere, .centre = {0, 0, -11}, .radius = 1};
+    node.error = 0.1;
+    TraceView view;
+    view.width = 1000;  // K' is 500 px
+    for (const TraceEvent& event : std::initializer_list<TraceEvent>{
+             TraceNodeTold{0, node}, TraceNamed{0, "tau"}, TraceSet{0, 2.0}, TraceFrameBegan{1, 1, 0},
+             TraceViewTold{0, view}, TraceDrawn{.node = 0}, TraceFrameEnded{2, 1, -1}})
+        if (state.add(event)) reporter.add(state);
+    const TraceReport report = reporter.finish(state);
+    ASSERT_EQ(report.views.size(), 1u);
+    EXPECT_NEAR(report.views[0].worstErrorPx, 5, 1e-9);
+    EXPECT_EQ(report.views[0].framesOverTau, 1u);
+}
+
 TEST(TraceSpread, isTheNearestRank) {
     std::vector<float> values;
     for (int i = 200; i > 0; --i) values.push_back(static_cast<float>(i));
