@@ -147,8 +147,7 @@ void PlanetTrace::tellView(const planet::Planet& planet, std::size_t view) {
 void PlanetTrace::tellPaging(planet::Planet& planet) {
     lod_trace* const trace = trace_.get();
     const planet::PagingMoves moves = planet.tools().takeMoves();
-    for (const planet::BlockId& block : moves.taken)
-        lod_trace_started(trace, idOf(block.parent), static_cast<int>(block.kind));
+    for (const planet::BlockId& block : moves.taken) tellStarted(block);
     const std::deque<planet::PagingEvent>& history = planet.inspect().pagingHistory();
     const std::uint64_t events = planet.inspect().pagingEventCount();
     // If there are more events than the planet keeps, the first are not known.
@@ -157,6 +156,10 @@ void PlanetTrace::tellPaging(planet::Planet& planet) {
     for (auto event = history.end() - static_cast<std::ptrdiff_t>(fresh); event != history.end(); ++event) {
         const std::uint64_t node = idOf(event->parent);
         const int kind = static_cast<int>(event->kind);
+        if (event->type == planet::PagingType::PageIn) {
+            waiting_.erase({event->parent, event->kind});
+            started_.erase({event->parent, event->kind});
+        }
         switch (event->outcome) {
             case planet::PagingOutcome::Loaded:
                 lod_trace_arrived(trace, node, kind);
@@ -172,8 +175,24 @@ void PlanetTrace::tellPaging(planet::Planet& planet) {
                 break;
         }
     }
-    for (const planet::BlockId& block : moves.requested)
+    for (const planet::BlockId& block : moves.requested) {
         lod_trace_requested(trace, idOf(block.parent), static_cast<int>(block.kind), NAN);
+        waiting_.insert(block);
+    }
+    // A loader may take a block within the step that requests it; moves tell that only in the next one.
+    std::unordered_set<planet::BlockId> queued;
+    for (const planet::PagingRequest& request : planet.inspect().pendingRequests(planet::PagingType::PageIn))
+        queued.insert(request.block());
+    const std::unordered_set<planet::BlockId> before = waiting_;
+    for (const planet::BlockId& block : before)
+        if (!queued.contains(block)) tellStarted(block);
+}
+
+// Tells it once.
+void PlanetTrace::tellStarted(const planet::BlockId& block) {
+    waiting_.erase(block);
+    if (!started_.insert(block).second) return;
+    lod_trace_started(trace_.get(), idOf(block.parent), static_cast<int>(block.kind));
 }
 
 void PlanetTrace::addFrame(planet::Planet& planet, const TracedTimes& times) {

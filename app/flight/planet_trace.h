@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "planet/base/result.h"
 #include "planet/paging/paging_types.h"
@@ -55,12 +56,15 @@ private:
     void tellNodes(const planet::Planet& planet, std::size_t view);
     void tellView(const planet::Planet& planet, std::size_t view);
     void tellPaging(planet::Planet& planet);
+    void tellStarted(const planet::BlockId& block);
 
     std::filesystem::path file_;
     std::unique_ptr<lod_trace, Close> trace_;
     std::unordered_map<planet::ChunkId, Told> told_;
     std::unordered_map<std::string, double> settings_;
     std::uint64_t eventsBefore_ = 0;  // of the paging, at the last frame
+    // Blocks that were told as requested and have not ended: those that wait for a loader, and the others.
+    std::unordered_set<planet::BlockId> waiting_, started_;
 };
 
 }  // namespace worldy

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -37,6 +38,8 @@ struct ShownFrame {
     std::uint64_t evicted = 0;
     std::uint64_t failed = 0;
     std::uint64_t requested = 0;
+    std::uint64_t waiting = 0;  // requests
+    std::uint64_t loading = 0;
     double worstEpsPx = 0;
 };
 
@@ -53,6 +56,8 @@ ShownFrame shownFrame(const Planet& planet) {
     frame.evicted = heights.evicted;
     frame.failed = heights.failed;
     frame.requested = planet.paging().requested;
+    frame.waiting = planet.paging().queued;
+    frame.loading = planet.paging().loading;
     frame.worstEpsPx = static_cast<double>(planet.selection().counters.worstEpsPx);
     return frame;
 }
@@ -186,6 +191,7 @@ TEST_F(PlanetTraces, tracePanelsShowTheNumbersOfThePlanetsPanels) {
     TracedFrameBuilder builder;
     TraceHistorian historian;
     std::size_t frame = 0;
+    std::uint64_t mostWaiting = 0;
     const planet::TraceDecoder::Sink sink = [&](const planet::TraceEvent& event) {
         if (!state.add(event) || HasFatalFailure()) return;
         ASSERT_LT(frame, frames_.size());
@@ -196,6 +202,12 @@ TEST_F(PlanetTraces, tracePanelsShowTheNumbersOfThePlanetsPanels) {
         ASSERT_EQ(traced->views.size(), 1u);
         const TracedView& view = traced->views[0];
         EXPECT_EQ(view.drawn, shown.drawn.size());
+        EXPECT_EQ(traced->queued, shown.waiting + shown.loading);
+        const auto started =
+            static_cast<std::uint64_t>(std::ranges::count(traced->queue, true, &TracedRequest::isStarted));
+        EXPECT_EQ(started, shown.loading) << "frame " << frame;
+        EXPECT_EQ(traced->queue.size() - started, shown.waiting) << "frame " << frame;
+        mostWaiting = std::max(mostWaiting, shown.waiting);
         EXPECT_NEAR(view.worstErrorPx, shown.worstEpsPx, 1e-6 * shown.worstEpsPx);
         for (const TracedNode& node : view.nodes) {
             const auto drawn = shown.drawn.find(node.node.id);
@@ -210,6 +222,7 @@ TEST_F(PlanetTraces, tracePanelsShowTheNumbersOfThePlanetsPanels) {
     for (auto more = file->next(sink); more && *more; more = file->next(sink)) {
     }
     ASSERT_EQ(frame, frames_.size());
+    EXPECT_GT(mostWaiting, 0u);
     const auto history = historian.history(state, true);
     const std::vector<TracedViewSample>& samples = history->views.at(0);
     ASSERT_EQ(samples.size(), frames_.size());
