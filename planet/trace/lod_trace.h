@@ -33,7 +33,7 @@
 // STRINGS are UTF-8, are copied before a call returns, and are cut at LOD_TRACE_MAX_NAME or LOD_TRACE_MAX_TEXT bytes.
 //
 // COORDINATES. World positions are doubles in the unit that lod_trace_description::metres_per_unit states, right-handed,
-// with the planet's centre as the origin if the shape is a sphere. Matrices have 16 doubles in column-major order and
+// with the planet's centre as the origin and z towards the north pole if the shape is a sphere. Matrices have 16 doubles in column-major order and
 // multiply column vectors, as in OpenGL and GLM: m[12], m[13], m[14] are a translation.
 //
 // TIME. Events are stamped with a monotonic clock in nanoseconds, lod_trace_now_ns.
@@ -324,7 +324,8 @@ LOD_TRACE_RETURN(uint64_t lod_trace_now_ns(void), (void)0, 0)
 #endif  // LOD_TRACE_DISABLE
 
 // Packs an id of LOD_TRACE_IDS_QUADTREE. face: [0, 6) in the order +x -x +y -y +z -z, 0 if flat; level: [0, 28]; x and y:
-// [0, 2^level), along the face's two axes. The children of x, y have 2x or 2x + 1, and 2y or 2y + 1.
+// [0, 2^level), along the face's two axes: seen from outside a sphere, x to the right and y up; +x to -y have north up,
+// and +z lies above +x and -z below it in the unfolded cube. The children of x, y have 2x or 2x + 1, and 2y or 2y + 1.
 static inline uint64_t lod_trace_quadtree_id(uint32_t face, uint32_t level, uint32_t x, uint32_t y) {
     return (uint64_t)face << 61 | (uint64_t)level << 56 | (uint64_t)y << 28 | x;
 }

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <utility>
+
+#include "planet/sphere/chunk_id.h"
 
 namespace planet {
 
@@ -53,6 +57,9 @@ double elapsedS(const TraceDataState& request, double endS, std::uint64_t endNs)
     return static_cast<double>(static_cast<std::int64_t>(endNs - request.requestedNs)) * 1e-9;
 }
 
+// Bounds can touch whose centres are at most this times the sum of their radii apart.
+constexpr double touchReach = 1.1;
+
 double radiusOf(const TraceBounds& bounds) {
     return bounds.shape == TraceBoundsShape::Sphere ? bounds.radius : glm::length(bounds.halfSize);
 }
@@ -82,10 +89,13 @@ bool spheresTouch(const TraceBounds& a, const TraceBounds& b) {
     return glm::length(a.centre - b.centre) <= std::hypot(a.radius, b.radius) * 1.001;
 }
 
+bool areNear(const TraceBounds& a, const TraceBounds& b) {
+    return glm::length(a.centre - b.centre) <= touchReach * (radiusOf(a) + radiusOf(b));
+}
+
 bool touch(const TraceBounds& finer, const TraceBounds& coarser) {
     if (finer.shape != coarser.shape) return false;
-    if (glm::length(finer.centre - coarser.centre) > 1.1 * (radiusOf(finer) + radiusOf(coarser)))
-        return false;
+    if (!areNear(finer, coarser)) return false;
     return finer.shape == TraceBoundsShape::Sphere
                ? spheresTouch(finer, coarser)
                : finer.shape == TraceBoundsShape::Box && boxesTouch(finer, coarser);
@@ -137,6 +147,29 @@ QuadtreePlace placeOf(std::uint64_t id) {
 std::uint64_t idOf(const QuadtreePlace& place) {
     return place.face << 61 | place.level << 56 | place.y << 28 | place.x;
 }
+
+// Returns the place of the same level beyond an edge; nothing where the face ends, unless it is one of a cube.
+std::optional<QuadtreePlace> placeBeyond(const QuadtreePlace& place, Edge edge, bool isCube) {
+    constexpr std::uint64_t mostLevels = 28;
+    if (place.level > mostLevels) return std::nullopt;
+    const std::uint64_t last = (std::uint64_t{1} << place.level) - 1;
+    if (place.x > last || place.y > last) return std::nullopt;
+    const bool leaves = (edge == Edge::West && place.x == 0) || (edge == Edge::East && place.x == last) ||
+                        (edge == Edge::South && place.y == 0) || (edge == Edge::North && place.y == last);
+    if (leaves && (!isCube || place.face >= faceCount)) return std::nullopt;
+    const ChunkId beyond =
+        neighbourOf({static_cast<Face>(place.face), static_cast<std::uint8_t>(place.level),
+                     static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y)},
+                    edge);
+    return QuadtreePlace{static_cast<std::uint64_t>(beyond.face), place.level, beyond.x, beyond.y};
+}
+
+// The bounds of a drawn node along an axis, for a sweep over all of them.
+struct SweptNode {
+    double from = 0, to = 0;
+    TraceNodeIndex node = noTraceNode;
+    std::uint64_t level = 0;
+};
 
 }  // namespace
 
@@ -304,8 +337,9 @@ void TraceFaultFinder::noteChange(const TraceState& state, int view, ViewMemory&
     Change& change = found->second;
     const bool isBack =
         !isNew && change.isSplit != isSplit && std::abs(frame.timeS - change.timeS) <= limits_.thrashWithinS;
-    if (!isBack) change.firstFrame = frame.number;
     change.reversals = isBack ? change.reversals + 1 : 0;
+    // The change that is taken back first was right.
+    if (change.reversals <= 1) change.firstFrame = frame.number;
     change.timeS = frame.timeS;
     change.isSplit = isSplit;
     if (change.reversals < limits_.thrashReversals) return;
@@ -488,27 +522,34 @@ void TraceFaultFinder::findSteps(const TraceState& state, const TraceFrameView& 
     }
 }
 
-// Finds the drawn node beyond each edge, on the same face.
+// Finds the drawn node beyond each edge. A sphere with more than two faces is a cube, whose faces lie as those of
+// cube_sphere.h. Another engine may turn its faces, so beyond the edge of a face the bounds must be near as well, if they are told.
 void TraceFaultFinder::findStepsById(const TraceState& state, int view, const ViewMemory& memory) {
+    const auto placeOfNode = [&](TraceNodeIndex node) { return placeOf(state.nodes()[node].node.id); };
+    const auto boundsOf = [&](TraceNodeIndex node) -> const TraceBounds& {
+        return state.nodes()[node].node.bounds;
+    };
+    const bool isCube =
+        state.descriptionOrDefault().shape == TraceShape::Sphere &&
+        std::ranges::any_of(memory.list, [&](TraceNodeIndex node) { return placeOfNode(node).face >= 2; });
     for (const TraceNodeIndex node : memory.list) {
-        const QuadtreePlace place = placeOf(state.nodes()[node].node.id);
-        constexpr std::array<std::array<int, 2>, 4> edges = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-        for (const auto& [dx, dy] : edges) {
-            QuadtreePlace beyond = place;
-            beyond.x += static_cast<std::uint64_t>(dx);
-            beyond.y += static_cast<std::uint64_t>(dy);
-            const std::uint64_t side = std::uint64_t{1} << place.level;
-            if (beyond.x >= side || beyond.y >= side) continue;  // also below 0
-            while (beyond.level > 0) {
-                beyond = {beyond.face, beyond.level - 1, beyond.x / 2, beyond.y / 2};
-                if (place.level - beyond.level < 2) continue;
-                const TraceNodeIndex found = state.find(idOf(beyond));
+        const QuadtreePlace place = placeOfNode(node);
+        for (const Edge edge : allEdges) {
+            std::optional<QuadtreePlace> beyond = placeBeyond(place, edge, isCube);
+            while (beyond && beyond->level > 0) {
+                beyond = {beyond->face, beyond->level - 1, beyond->x / 2, beyond->y / 2};
+                if (place.level - beyond->level < 2) continue;
+                const TraceNodeIndex found = state.find(idOf(*beyond));
                 if (found == noTraceNode || found >= memory.drawn.size() || memory.drawn[found] != frames_)
                     continue;
                 // Neither its own ancestor nor a node that is drawn with its descendants: those are other faults.
-                const QuadtreePlace own{place.face, beyond.level, place.x >> (place.level - beyond.level),
-                                        place.y >> (place.level - beyond.level)};
-                if (idOf(own) != idOf(beyond) && memory.below[found] != frames_)
+                const QuadtreePlace own{place.face, beyond->level, place.x >> (place.level - beyond->level),
+                                        place.y >> (place.level - beyond->level)};
+                const bool isBeside = place.face == beyond->face ||
+                                      boundsOf(node).shape == TraceBoundsShape::None ||
+                                      boundsOf(found).shape == TraceBoundsShape::None ||
+                                      areNear(boundsOf(node), boundsOf(found));
+                if (idOf(own) != idOf(*beyond) && memory.below[found] != frames_ && isBeside)
                     step(state, view, node, found);
                 break;
             }
@@ -516,17 +557,40 @@ void TraceFaultFinder::findStepsById(const TraceState& state, int view, const Vi
     }
 }
 
+// Compares only nodes whose bounds overlap along the axis along which their centres spread the most.
 void TraceFaultFinder::findStepsByBounds(const TraceState& state, int view, const ViewMemory& memory) {
-    std::vector<TraceNodeIndex> byLevel = memory.list;
+    const auto boundsOf = [&](TraceNodeIndex node) -> const TraceBounds& {
+        return state.nodes()[node].node.bounds;
+    };
     // A node that is drawn with its descendants is another fault.
-    std::erase_if(byLevel, [&](TraceNodeIndex node) { return memory.below[node] == frames_; });
-    const auto levelOf = [&](TraceNodeIndex node) { return std::uint64_t{state.nodes()[node].node.level}; };
-    std::sort(byLevel.begin(), byLevel.end(), [&](auto a, auto b) { return levelOf(a) < levelOf(b); });
-    for (std::size_t coarse = 0; coarse < byLevel.size(); ++coarse) {
-        for (std::size_t fine = byLevel.size(); fine-- > coarse + 1;) {
-            if (levelOf(byLevel[fine]) < levelOf(byLevel[coarse]) + 2) break;
-            if (touch(state.nodes()[byLevel[fine]].node.bounds, state.nodes()[byLevel[coarse]].node.bounds))
-                step(state, view, byLevel[fine], byLevel[coarse]);
+    const auto isSwept = [&](TraceNodeIndex node) {
+        const TraceBounds& bounds = boundsOf(node);
+        return memory.below[node] != frames_ && bounds.shape != TraceBoundsShape::None &&
+               std::isfinite(glm::length(bounds.centre) + radiusOf(bounds));
+    };
+    glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+    for (const TraceNodeIndex node : memory.list) {
+        if (!isSwept(node)) continue;
+        low = glm::min(low, boundsOf(node).centre);
+        high = glm::max(high, boundsOf(node).centre);
+    }
+    int axis = 0;
+    for (int other = 1; other < 3; ++other)
+        if (high[other] - low[other] > high[axis] - low[axis]) axis = other;
+    std::vector<SweptNode> swept;
+    for (const TraceNodeIndex node : memory.list) {
+        if (!isSwept(node)) continue;
+        const double middle = boundsOf(node).centre[axis], reach = touchReach * radiusOf(boundsOf(node));
+        swept.push_back({middle - reach, middle + reach, node, state.nodes()[node].node.level});
+    }
+    std::ranges::stable_sort(swept, {}, &SweptNode::from);
+    for (std::size_t i = 0; i < swept.size(); ++i) {
+        for (std::size_t j = i + 1; j < swept.size() && swept[j].from <= swept[i].to; ++j) {
+            const bool isFiner = swept[i].level > swept[j].level;
+            const SweptNode &finer = isFiner ? swept[i] : swept[j], &coarser = isFiner ? swept[j] : swept[i];
+            if (finer.level < coarser.level + 2) continue;
+            if (touch(boundsOf(finer.node), boundsOf(coarser.node)))
+                step(state, view, finer.node, coarser.node);
         }
     }
 }

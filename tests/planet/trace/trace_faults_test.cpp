@@ -14,6 +14,7 @@
 #include <random>
 #include <set>
 
+#include "planet/sphere/chunk_id.h"
 #include "planet/trace/trace_index.h"
 #include "tests/support/trace_events.h"
 
@@ -252,6 +253,120 @@ TEST(TraceFaults, aStepOfTwoLevelsIsFoundByIdsAndByBounds) {
             EXPECT_TRUE(fault.other == quadtreeNode(1, 1, 0).id || fault.other == quadtreeNode(1, 0, 1).id);
         }
     }
+}
+
+// The faces of a sphere of radius 10, with nodes as wide as a quarter of the equator at level 0.
+TraceNode cubeNode(const ChunkId& id) {
+    TraceNode node;
+    node.id = keyOf(id);
+    node.isTold = true;
+    node.level = id.level;
+    const FaceSquare square = faceSquareOf(id);
+    const auto at = [&](double u, double v) {
+        return 10.0 *
+               sphereFromCube(cubePoint(id.face, square.u + u * square.side, square.v + v * square.side));
+    };
+    node.bounds = {.shape = TraceBoundsShape::Sphere, .centre = at(0.5, 0.5)};
+    for (const double u : {0.0, 1.0})
+        for (const double v : {0.0, 1.0})
+            node.bounds.radius = std::max(node.bounds.radius, glm::length(at(u, v) - node.bounds.centre));
+    return node;
+}
+
+// Draws two nodes of a sphere, and returns what is found.
+std::vector<TraceFault> faultsOnSphere(TraceNode fine, const TraceNode& coarse) {
+    TraceState state;
+    TraceFaultFinder finder;
+    TraceDescription description;
+    description.shape = TraceShape::Sphere;
+    description.radius = 10;
+    description.ids = TraceIds::Quadtree;
+    for (const TraceEvent& event : std::initializer_list<TraceEvent>{
+             description, TraceNodeTold{0, fine}, TraceNodeTold{1, coarse}, TraceFrameBegan{1, 1, 0},
+             TraceDrawn{.node = 0}, TraceDrawn{.node = 1}, TraceFrameEnded{2, 1, -1}})
+        if (state.add(event)) finder.add(state);
+    return finder.faults();
+}
+
+TEST(TraceFaults, aStepAcrossTheEdgeOfAFaceIsFound) {
+    for (const Face face : allFaces) {
+        for (const Edge edge : allEdges) {
+            const ChunkId fine{face, 6,
+                               edge == Edge::West   ? 0u
+                               : edge == Edge::East ? 63u
+                                                    : 20u,
+                               edge == Edge::South   ? 0u
+                               : edge == Edge::North ? 63u
+                                                     : 20u};
+            const ChunkId beyond = neighbourOf(fine, edge);
+            ASSERT_NE(beyond.face, face);
+            const auto found = faultsOnSphere(cubeNode(fine), cubeNode(ancestorOf(beyond, 4)));
+            ASSERT_EQ(found.size(), 1u) << toString(fine);
+            EXPECT_EQ(found[0].kind, Kind::LevelStep);
+            EXPECT_EQ(found[0].value, 2);
+            EXPECT_TRUE(faultsOnSphere(cubeNode(fine), cubeNode(ancestorOf(beyond, 5))).empty());
+            // An engine whose faces are turned has another node there.
+            TraceNode elsewhere = cubeNode(ancestorOf(beyond, 4));
+            elsewhere.bounds.centre = -elsewhere.bounds.centre;
+            EXPECT_TRUE(faultsOnSphere(cubeNode(fine), elsewhere).empty());
+            elsewhere.bounds = {};
+            TraceNode bare = cubeNode(fine);
+            bare.bounds = {};
+            EXPECT_EQ(faultsOnSphere(bare, elsewhere).size(), 1u);
+        }
+    }
+}
+
+// All pairs are the measure. The nodes lie on a plane, so a sweep along any axis must find them.
+TEST(TraceFaults, stepsAmongManyNodesAreThoseOfAllPairs) {
+    for (const int up : {0, 1, 2}) {
+        MadeTrace trace(TraceIds::Opaque);
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> share(0, 1);
+        std::vector<TraceNodeIndex> drawn;
+        std::vector<TraceNode> nodes;
+        for (std::uint32_t i = 0; i < 300; ++i) {
+            TraceNode node = quadtreeNode(i % 6, 0, 0);
+            node.id = 1'000'000 + i;
+            node.hasParent = false;
+            for (const int axis : {0, 1, 2}) node.bounds.centre[axis] = (30 - 10 * axis) * share(random);
+            std::swap(node.bounds.centre[0], node.bounds.centre[up]);
+            drawn.push_back(static_cast<TraceNodeIndex>(trace.state.nodes().size()));
+            trace.add(TraceNodeTold{drawn.back(), node});
+            nodes.push_back(node);
+        }
+        trace.frame(drawn);
+        std::set<std::pair<std::uint64_t, std::uint64_t>> expected, found;
+        for (const TraceNode& fine : nodes)
+            for (const TraceNode& coarse : nodes)
+                if (fine.level >= coarse.level + 2 &&
+                    glm::length(fine.bounds.centre - coarse.bounds.centre) <=
+                        1.001 * std::hypot(fine.bounds.radius, coarse.bounds.radius))
+                    expected.insert({fine.id, coarse.id});
+        for (const TraceFault& fault : trace.finder.faults())
+            if (fault.kind == Kind::LevelStep) found.insert({fault.node, fault.other});
+        EXPECT_GT(expected.size(), 50u);
+        EXPECT_EQ(found, expected);
+    }
+}
+
+// It took a second for each frame when all pairs were compared.
+TEST(TraceFaults, stepsAmongSixteenThousandNodesAreFoundQuickly) {
+    MadeTrace trace(TraceIds::Opaque);
+    std::vector<TraceNodeIndex> drawn;
+    const auto draw = [&](std::uint32_t level, std::uint32_t x, std::uint32_t y) {
+        TraceNode node = quadtreeNode(level, x, y);
+        node.hasParent = false;
+        drawn.push_back(static_cast<TraceNodeIndex>(trace.state.nodes().size()));
+        trace.add(TraceNodeTold{drawn.back(), node});
+    };
+    // Level 7, with one node of level 5 in place of 16.
+    for (std::uint32_t y = 0; y < 128; ++y)
+        for (std::uint32_t x = 0; x < 128; ++x)
+            if (x / 4 != 10 || y / 4 != 10) draw(7, x, y);
+    draw(5, 10, 10);
+    for (int frame = 0; frame < 10; ++frame) trace.frame(drawn);
+    EXPECT_EQ(trace.kinds(), std::vector<Kind>(16, Kind::LevelStep));
 }
 
 // An engine that culls a child need not load it.
