@@ -19,6 +19,7 @@ using planet::TraceBoundsShape;
 constexpr std::uint8_t nodeOpacity = 200;
 constexpr planet::LineColour selectedColour{255, 190, 76, 255};
 constexpr planet::LineColour cameraColour{255, 255, 255, 160};
+constexpr planet::LineColour otherCameraColour{255, 255, 255, 70};
 
 planet::LineColour colourOf(const TracedNode& node, double tauPx, const OverlaySettings& overlay) {
     if (overlay.colourBy == ColourBy::Morph)
@@ -45,7 +46,8 @@ void appendBounds(const TraceBounds& bounds, double scale, const planet::LineCol
 }
 
 // Appends the edges of what the engine's camera sees, down to the ground or the horizon.
-void appendCamera(const planet::TraceView& camera, double radius, double scale, planet::Lines& lines) {
+void appendCamera(const planet::TraceView& camera, double radius, double scale,
+                  const planet::LineColour& colour, planet::Lines& lines) {
     const double distance = glm::length(camera.eye);
     const double length =
         std::max(distance - radius, 0.02 * std::sqrt(std::max(distance * distance - radius * radius, 0.0)));
@@ -53,8 +55,8 @@ void appendCamera(const planet::TraceView& camera, double radius, double scale, 
     const auto finite = [](const glm::dvec3& v) { return std::isfinite(glm::length(v)); };
     if (!finite(camera.eye) || !std::ranges::all_of(ends, finite)) return;
     const auto line = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        lines.push_back({scale * from, cameraColour});
-        lines.push_back({scale * to, cameraColour});
+        lines.push_back({scale * from, colour});
+        lines.push_back({scale * to, colour});
     };
     for (std::size_t i = 0; i < ends.size(); ++i) {
         line(camera.eye, ends[i]);
@@ -101,7 +103,10 @@ planet::Lines traceLines(const TracedFrame& frame, const TracedView& view, doubl
         if (glm::length(centreM - eyeM) - reachM > horizonM) continue;
         appendBounds(bounds, scale, isSelected ? selectedColour : colourOf(node, view.tauPx, overlay), lines);
     }
-    if (view.info) appendCamera(*view.info, frame.description->radius, scale, lines);
+    for (const TracedView& each : frame.views)
+        if (each.info)
+            appendCamera(*each.info, frame.description->radius, scale,
+                         each.view == view.view ? cameraColour : otherCameraColour, lines);
     return lines;
 }
 

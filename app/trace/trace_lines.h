@@ -19,7 +19,7 @@ bool hasPlaceOnPlanet(const TracedFrame& frame);
 // engine's matrices are not.
 std::array<glm::dvec3, 4> traceFrustum(const planet::TraceView& camera, double length);
 
-// Returns the bounds of the drawn nodes of a view, and the frustum of its camera, scaled so that the engine's sphere is
+// Returns the bounds of the drawn nodes of a view, and the frusta of the cameras of all views, its own the brightest, scaled so that the engine's sphere is
 // the planet's. Nodes behind the horizon of eyeM are left out. Colours are those of the overlay's level, error or morph;
 // others stand for the level. Without a place on the planet: nothing.
 planet::Lines traceLines(const TracedFrame& frame, const TracedView& view, double planetRadiusM,

@@ -47,6 +47,18 @@ until_true hidden trace/Timeline || echo 'the trace stays open'
     EXPECT_NE(ran.errors.find("flight.lodtrace opened"), std::string::npos) << ran.errors;
 }
 
+TEST_F(TraceWindow, ADroppedFileIsOpened) {
+    test::writeSmallTrace(folder.path() / "flight.lodtrace");
+    const Ran ran = runInWindow(folder, "", R"sh(
+')sh" DROP_FILE_BINARY R"sh(' Worldy "$PWD/flight.lodtrace" || echo 'the window does not take the trace'
+until_true shown trace/Timeline || echo 'the trace is not shown'
+)sh",
+                                usualScreen);
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "");
+    EXPECT_NE(ran.errors.find("flight.lodtrace opened"), std::string::npos) << ran.errors;
+}
+
 TEST_F(TraceWindow, ARunningEngineIsAttachedAndItsTraceIsKept) {
     std::array<char, 512> error{};
     lod_trace* const engine = lod_trace_open("tcp:127.0.0.1:0", nullptr, error.data(), error.size());

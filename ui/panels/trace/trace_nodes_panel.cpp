@@ -248,9 +248,14 @@ void drawSpace(const EditorView& view, const TracedView& shown, const SpaceView&
         for (const auto& edge : shape.edges) list.AddLine(asPixel(edge[0]), asPixel(edge[1]), line, width);
         if (shown.info) farthest = std::max(farthest, glm::length(node.node.bounds.centre - shown.info->eye));
     }
-    if (!state.ownCamera || !shown.info) return;
-    for (const auto& edge : spaceFrustum(space, *shown.info, 0.5 * farthest))
-        list.AddLine(asPixel(edge[0]), asPixel(edge[1]), packed(palette().text, 0.6f), unit);
+    // The engine's camera does not see its own frustum.
+    for (const TracedView& each : view.trace.frame->views) {
+        const bool isShown = each.view == shown.view;
+        if (!each.info || (isShown && !state.ownCamera)) continue;
+        for (const auto& edge : spaceFrustum(space, *each.info, 0.5 * farthest))
+            list.AddLine(asPixel(edge[0]), asPixel(edge[1]), packed(palette().text, isShown ? 0.6f : 0.3f),
+                         unit);
+    }
 }
 
 void spacePicture(const EditorView& view, const TracedView& shown, TraceNodesPanelState& state,

@@ -54,6 +54,12 @@ std::vector<Strip> stripsOf(const EditorView& view, const TraceTimelineState& st
         strips.push_back({"nodes",
                           {{"drawn", seriesColour(0), of(&TracedViewSample::drawn)},
                            {"waiting for data", palette().bad, of(&TracedViewSample::starved)}}});
+        // 0 stands for not told.
+        const auto triangles = [of](std::size_t i) {
+            const float count = of(&TracedViewSample::triangles)(i);
+            return count > 0 ? count : unknown;
+        };
+        strips.push_back({"", {{std::string("triangles"), seriesColour(7), triangles}}});
         strips.push_back({"nodes",
                           {{"splits", palette().accent, of(&TracedViewSample::splits)},
                            {"merges", palette().warning, of(&TracedViewSample::merges)}}});
