@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <vector>
 
+#include "app/flight/flight_path_file.h"
 #include "app/trace/trace_history.h"
 #include "app/trace/traced_frame.h"
 #include "planet/measure/lod_changes.h"
@@ -65,7 +67,12 @@ ShownFrame shownFrame(const Planet& planet) {
 // Flies around the fake planet with a budget that is too small for it, so that blocks come and go.
 class PlanetTraces : public testing::Test {
 protected:
-    void fly(double tauPx = 1, double fadeS = planet::LodSettings{}.fadeS) {
+    using ViewAt = std::function<planet::View(double share)>;
+
+    static planet::View around(double share) {
+        return planet::viewAt(30 * std::sin(7 * share), 300 * share, 9000);
+    }
+    void fly(double tauPx = 1, double fadeS = planet::LodSettings{}.fadeS, const ViewAt& viewAt = around) {
         planet::PagingSettings settings;
         settings.budgetBytes = planet::bytesOf(180);
         settings.time = planet::PagingTime::Simulated;
@@ -79,7 +86,7 @@ protected:
         const std::uint64_t requestedBefore = planet_->paging().requested;
         for (int i = 0; i < flownFrames; ++i) {
             const double share = static_cast<double>(i) / flownFrames;
-            const planet::ViewInput view{planet::viewAt(30 * std::sin(7 * share), 300 * share, 9000), lod};
+            const planet::ViewInput view{viewAt(share), lod};
             planet_->step({&view, 1}, planet::noUpload, stepS);
             changes_.add(planet_->selection(), i * stepS);
             splits_ += newChanges(planet::LodChangeType::Split, i * stepS);
@@ -182,9 +189,28 @@ TEST_F(PlanetTraces, reportCountsTheChangesThatThePanelCounts) {
     EXPECT_EQ(report.description->name, "around");
 }
 
+// The flight of a file, or around the planet if it is empty.
+class PlanetTracesOfFlights : public PlanetTraces, public testing::WithParamInterface<const char*> {
+protected:
+    void flyFile() {
+        if (!*GetParam()) return fly();
+        const auto path = loadFlightPath(fs::path(WORLDY_SOURCE_DIR) / "data/flights" / GetParam());
+        ASSERT_TRUE(path) << path.error().message;
+        fly(1, planet::LodSettings{}.fadeS, [&](double share) {
+            planet::CameraPose pose = poseAt(*path, path->keys.front().timeS + share * durationS(*path));
+            // The fake planet is smaller than the Earth, and its mountains are up to 4 km high.
+            pose.altitudeM = 4500 + pose.altitudeM * planet::fakePyramid().shape.radiusM / 6'371'000;
+            return planet::viewFromPose(pose, planet::fakePyramid().shape.radiusM, 1.1, 1280, 720);
+        });
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(, PlanetTracesOfFlights,
+                         testing::Values("", "andes_low_fast.toml", "orbit_to_ground.toml"));
+
 // The trace panels read TracedFrame and TraceHistory, and the panels of a planet read its counters.
-TEST_F(PlanetTraces, tracePanelsShowTheNumbersOfThePlanetsPanels) {
-    fly();
+TEST_P(PlanetTracesOfFlights, tracePanelsShowTheNumbersOfThePlanetsPanels) {
+    flyFile();
     auto file = planet::TraceFile::open(file_);
     ASSERT_TRUE(file) << file.error().message;
     planet::TraceState state;
