@@ -272,13 +272,16 @@ void addReplay(CLI::App& command, ReplayOptions& options) {
 struct TraceTexts {
     std::string goal;
     std::string data = "all";
+    std::string metric = "bounds";
     std::string match = "time";
     std::optional<double> budgetMb;
     double diskLatencyMs = 1000 * planet::TraceDiskModel{}.latencyS;
     double diskMbPerS = planet::TraceDiskModel{}.bytesPerS / 1e6;
 };
 constexpr std::array<std::string_view, 3> traceDataNames = {"all", "traced", "disk"};  // of TraceResidency
-constexpr std::array<std::string_view, 2> traceMatchNames = {"time", "number"};        // of TraceMatch
+constexpr std::array<std::string_view, 3> traceMetricNames = {"bounds", "sphere",
+                                                              "centre"};         // of TraceMetric
+constexpr std::array<std::string_view, 2> traceMatchNames = {"time", "number"};  // of TraceMatch
 
 void addTraceWhatIf(CLI::App& command, TraceWhatIfOptions& options, TraceTexts& texts) {
     command
@@ -294,6 +297,11 @@ void addTraceWhatIf(CLI::App& command, TraceWhatIfOptions& options, TraceTexts& 
         .add_option("--hysteresis", options.settings.hysteresis,
                     "Hysteresis to select with, a share of tau (the engine's)")
         ->check(number(0, 0.99));
+    command
+        .add_option("--metric", texts.metric,
+                    "What the distance of an error is measured to: the bounds that the engine told, the "
+                    "sphere around them, or their centre (bounds)")
+        ->check(oneOf(traceMetricNames));
     command
         .add_option("--budget-mb", texts.budgetMb, "Most data to select, 10^6 bytes for each view (no limit)")
         ->check(number(0, 1e9, false));
@@ -500,6 +508,7 @@ Result<void> finish(TraceCommandOptions& options, const TraceTexts& texts) {
         return std::find(names.begin(), names.end(), name) - names.begin();
     };
     settings.residency = static_cast<planet::TraceResidency>(placeOf(traceDataNames, texts.data));
+    settings.metric = static_cast<planet::TraceMetric>(placeOf(traceMetricNames, texts.metric));
     options.match = static_cast<planet::TraceMatch>(placeOf(traceMatchNames, texts.match));
     if (texts.budgetMb) settings.budgetBytes = static_cast<std::uint64_t>(*texts.budgetMb * 1e6);
     settings.disk.latencyS = texts.diskLatencyMs / 1000;

@@ -23,6 +23,7 @@ using planet::TraceWhatIfRow;
 
 constexpr double bytesOfMb = 1e6;
 constexpr std::array residencyNames = {"all", "traced", "disk"};
+constexpr std::array metricNames = {"bounds", "sphere", "centre"};
 
 void printTotals(const std::string& name, const char* mark, const TraceSelectionTotals& totals,
                  const TraceWhatIfRow* row) {
@@ -104,6 +105,7 @@ Json jsonOf(const TraceWhatIfReport& report, const TraceWhatIfRow& row) {
     Json json = {{"tau_px", settings.tauPx ? Json(*settings.tauPx) : Json(nullptr)},
                  {"hysteresis", settings.hysteresis ? Json(*settings.hysteresis) : Json(nullptr)},
                  {"budget_bytes", settings.budgetBytes ? Json(*settings.budgetBytes) : Json(nullptr)},
+                 {"metric", metricNames[static_cast<std::size_t>(settings.metric)]},
                  {"data", residencyNames[static_cast<std::size_t>(settings.residency)]}};
     if (settings.residency == planet::TraceResidency::Disk)
         json["disk"] = {{"latency_ms", 1000 * settings.disk.latencyS},

@@ -155,7 +155,8 @@ bool TraceEngineFrame::hasChildren(const TraceState& state, TraceNodeIndex node)
     return std::ranges::all_of(children, [&](TraceNodeIndex child) { return isCertain(state, child); });
 }
 
-double TraceEngineFrame::errorPx(const TraceState& state, TraceNodeIndex node, bool isVisited) const {
+double TraceEngineFrame::errorPx(const TraceState& state, TraceNodeIndex node, bool isVisited,
+                                 TraceMetric metric) const {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const TraceNode& told = state.nodes()[node].node;
     double computed = unknown;
@@ -164,7 +165,8 @@ double TraceEngineFrame::errorPx(const TraceState& state, TraceNodeIndex node, b
         if (isPixels) {
             if (isVisited && told.error != 0) computed = told.error;
         } else if (view_->info) {
-            computed = traceErrorPx(state.descriptionOrDefault(), told, *view_->info);
+            computed = traceErrorPx(state.descriptionOrDefault(), told, *view_->info, metric);
+            if (metric != TraceMetric::Bounds && !std::isnan(computed)) return computed;
         }
     }
     const auto found = toldPx_.find(node);
@@ -351,7 +353,7 @@ void TraceSelector::ask(const TraceState& state, const Open& node) {
 void TraceSelector::open(const TraceState& state, const TraceEngineFrame& engine, TraceNodeIndex node,
                          bool isBelow) {
     if (!isSeen(state, engine, node, isBelow) || !stampOnce(seenAt_, node, stamp_)) return;
-    open_.push_back({engine.errorPx(state, node, !isBelow), node, isBelow});
+    open_.push_back({engine.errorPx(state, node, !isBelow, settings_.metric), node, isBelow});
     std::push_heap(open_.begin(), open_.end());
 }
 
@@ -376,7 +378,7 @@ void TraceSelector::visit(const TraceState& state, const TraceEngineFrame& engin
         if (children == Children::Missing && isDisk) ask(state, node);
     }
     selection_.unknown += std::isnan(node.errorPx);
-    addDrawn(state, node.node, node.errorPx, selection_);
+    addDrawn(state, node.node, engine.errorPx(state, node.node, !node.isBelow), selection_);
 }
 
 const TraceSelection* TraceSelector::select(const TraceState& state, const TraceEngineFrame& engine) {

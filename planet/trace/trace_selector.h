@@ -1,4 +1,4 @@
-// Selects nodes again in the views of a trace, with other settings or other data than the engine had.
+// Selects nodes again in the views of a trace, with other settings, another metric or other data than the engine had.
 //
 // A node is split while its error on screen exceeds τ, and a split node stays split until its error is at most
 // τ (1 - hysteresis), as lod_select.h does it, but without fades and without limits of seams. It is drawn itself while the
@@ -53,8 +53,10 @@ public:
     // only if the engine split the node, because a trace does not say whether the engine saw it in this frame already.
     bool hasChildren(const TraceState& state, TraceNodeIndex node) const;
     // Returns a node's error, pixels: as the engine told it in this frame, if that differs from traceErrorPx() by more than
-    // 1e-4 of it, else traceErrorPx(). NaN: unknown. isVisited: the engine drew, split or culled it.
-    double errorPx(const TraceState& state, TraceNodeIndex node, bool isVisited) const;
+    // 1e-4 of it, else traceErrorPx(). NaN: unknown. isVisited: the engine drew, split or culled it. With another metric than
+    // Bounds, an error that is a distance is always converted here, because the engine's number says nothing about that metric.
+    double errorPx(const TraceState& state, TraceNodeIndex node, bool isVisited,
+                   TraceMetric metric = TraceMetric::Bounds) const;
 
 private:
     using Stamps = std::vector<std::uint32_t>;  // by node: stamp_ of the last frame in which something holds
@@ -94,6 +96,8 @@ struct TraceSelectorSettings {
     std::optional<double> tauPx{};       // pixels, > 0
     std::optional<double> hysteresis{};  // [0, 1); 0 if the engine told none
     std::optional<double> maxLevel{};    // unlimited if the engine told none
+    // Of the errors that are compared with τ. Those of the result are always by the bounds, so that results can be compared.
+    TraceMetric metric = TraceMetric::Bounds;
     // Nodes with the largest error are split first, as long as the bytes that the view needs stay within the budget.
     std::optional<std::uint64_t> budgetBytes{};
     TraceResidency residency = TraceResidency::AllThere;
@@ -193,7 +197,7 @@ public:
 
 private:
     struct Open {
-        double errorPx = 0;  // NaN: unknown
+        double errorPx = 0;  // by the metric; NaN: unknown
         TraceNodeIndex node = noTraceNode;
         bool isBelow = false;  // below a node that the engine drew
         bool operator<(const Open& other) const;

@@ -195,8 +195,12 @@ bool TraceState::isResident(TraceNodeIndex node) const {
     return loader == noTraceNode || nodes_[loader].data[0].data == TraceData::Resident;
 }
 
-double traceDistance(const TraceBounds& bounds, const glm::dvec3& point) {
+double traceDistance(const TraceBounds& bounds, const glm::dvec3& point, TraceMetric metric) {
     const glm::dvec3 from = point - bounds.centre;
+    const bool isTold = bounds.shape != TraceBoundsShape::None;
+    if (isTold && metric == TraceMetric::Centre) return glm::length(from);
+    if (bounds.shape == TraceBoundsShape::Box && metric == TraceMetric::Sphere)
+        return std::max(glm::length(from) - glm::length(bounds.halfSize), 0.0);
     if (bounds.shape == TraceBoundsShape::Sphere) return std::max(glm::length(from) - bounds.radius, 0.0);
     if (bounds.shape != TraceBoundsShape::Box) return std::numeric_limits<double>::quiet_NaN();
     glm::dvec3 outside{0, 0, 0};
@@ -207,10 +211,11 @@ double traceDistance(const TraceBounds& bounds, const glm::dvec3& point) {
     return glm::length(outside);
 }
 
-double traceErrorPx(const TraceDescription& description, const TraceNode& node, const TraceView& view) {
+double traceErrorPx(const TraceDescription& description, const TraceNode& node, const TraceView& view,
+                    TraceMetric metric) {
     if (description.error == TraceErrorUnit::Pixels) return node.error;
     constexpr double nearestM = 1e-3;
-    const double distance = traceDistance(node.bounds, view.eye);
+    const double distance = traceDistance(node.bounds, view.eye, metric);
     if (std::isnan(distance)) return distance;
     const double scale = std::abs(view.projection[0][0]) * view.width / 2;
     return node.error * scale / std::max(distance, nearestM / description.metresPerUnit);

@@ -144,12 +144,21 @@ private:
     std::uint64_t droppedTotal_ = 0;
 };
 
-// Returns the distance from a point to a node's bounds, world units, 0 inside; NaN without bounds. Pure, any thread.
-double traceDistance(const TraceBounds& bounds, const glm::dvec3& point);
+// What a distance is measured to.
+enum class TraceMetric : std::uint8_t {
+    Bounds,  // the sphere or box that the engine told; 0 inside
+    Sphere,  // the sphere around a box; 0 inside
+    Centre,  // of the bounds
+};
+
+// Returns the distance from a point to a node, world units; NaN without bounds. Pure, any thread.
+double traceDistance(const TraceBounds& bounds, const glm::dvec3& point,
+                     TraceMetric metric = TraceMetric::Bounds);
 
 // Returns a node's error on screen, pixels: as told for TraceErrorUnit::Pixels, else error * K' / D, with K' =
-// |projection[0][0]| W / 2 and D the distance to the bounds, at least 1 mm. NaN if the bounds are not told. Pure, any thread.
-double traceErrorPx(const TraceDescription& description, const TraceNode& node, const TraceView& view);
+// |projection[0][0]| W / 2 and D the distance by the metric, at least 1 mm. NaN if the bounds are not told. Pure, any thread.
+double traceErrorPx(const TraceDescription& description, const TraceNode& node, const TraceView& view,
+                    TraceMetric metric = TraceMetric::Bounds);
 
 // Returns a node's id as text: "z_pos/3/5/2", face, level, x and y, if ids say so; "3/5/2" if the world is flat; else the
 // number. Pure, any thread.

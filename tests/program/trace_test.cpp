@@ -117,6 +117,9 @@ TEST_F(TraceCommand, selectsAgainWithOtherTausAndSuggestsOne) {
         runWorldy(folder_, "trace down.lodtrace --what-if 2 --data disk --loaders 2 --budget-mb 8");
     EXPECT_EQ(text.exitCode, 0) << text.errors;
     EXPECT_THAT(text.output, HasSubstr("tau 2 px"));
+    const json nearer = trace("--what-if 1 --metric sphere")["what_if"]["view"][0]["selection"][0];
+    EXPECT_EQ(nearer["metric"], "sphere");
+    EXPECT_GT(nearer["totals"]["mean_triangles"], view["selection"][1]["totals"]["mean_triangles"]);
     const Ran wrong = runWorldy(folder_, "trace down.lodtrace --suggest bytes=3");
     EXPECT_EQ(wrong.exitCode, 2);
     EXPECT_THAT(wrong.errors, HasSubstr("expected error_px=N, bytes_mb=N or triangles=N"));

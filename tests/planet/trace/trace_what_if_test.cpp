@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -157,6 +158,34 @@ TEST_F(TraceWhatIfs, childrenThatWereNeverDescribedAreUnknown) {
     const TraceWhatIfReport report = this->report();
     EXPECT_EQ(report.views[0].rows[0].totals.unknown, 4u);
     EXPECT_EQ(report.views[0].rows[0].totals.unknownFrames, 1u);
+}
+
+// The eye is 40 before the centre: 39 from the box, 40 - 3 from the sphere around it.
+TEST_F(TraceWhatIfs, aMetricSaysWhatTheDistanceIsMeasuredTo) {
+    std::vector<TraceSelectorSettings> settings;
+    for (const double tauPx : {19.0, 20.2, 20.8, 22.0}) {
+        for (const TraceMetric metric : {TraceMetric::Bounds, TraceMetric::Sphere, TraceMetric::Centre}) {
+            settings.push_back(withTau(tauPx));
+            settings.back().metric = metric;
+        }
+    }
+    selectWith(settings);
+    tellNodes(3);
+    for (std::uint64_t id = 1; id <= 3; ++id) {
+        TraceNode node = state_.nodes()[at(id)].node;
+        node.bounds = {.shape = TraceBoundsShape::Box,
+                       .axes = {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)},
+                       .halfSize = {2, 2, 1}};
+        add(TraceNodeTold{at(id), node});
+    }
+    frame(20, {2, 3});
+    // The root has 20.51 px by the box, 21.62 px by the sphere, and 20 px by the centre.
+    const std::array splits = {true, true, true, true, true, false, false, true, false, false, false, false};
+    for (std::size_t row = 0; row < splits.size(); ++row) {
+        EXPECT_EQ(drawn(static_cast<int>(row)), splits[row] ? (Ids{2, 3}) : (Ids{1})) << row;
+        // Errors are told by the bounds, whatever decides.
+        EXPECT_NEAR(last(static_cast<int>(row)).worstErrorPx, (splits[row] ? 400 : 800) / 39.0, 1e-9);
+    }
 }
 
 TEST_F(TraceWhatIfs, aSplitNodeStaysSplitWithinTheHysteresis) {

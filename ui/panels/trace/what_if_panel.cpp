@@ -25,6 +25,7 @@ namespace worldy::ui {
 
 namespace {
 
+using planet::TraceMetric;
 using planet::TraceResidency;
 
 constexpr float chartApartFrom = 90;  // heights of the font
@@ -58,6 +59,12 @@ void hysteresisControl(WhatIfPanelState& state) {
         slider("Share", state.hysteresis, 0.1, 0, 0.9, "%.2f", "Hysteresis, a share of the tolerance.");
 }
 
+void metricControl(WhatIfPanelState& state) {
+    choice("Metric", state.metric, TraceMetric::Bounds, "bounds\0sphere\0centre\0",
+           "What the distance of an error is measured to: the bounds that the engine told, the sphere around "
+           "them, or their centre. Errors in the results are always by the bounds.");
+}
+
 void budgetControl(WhatIfPanelState& state) {
     int choice = state.hasBudget ? 1 : 0;
     choiceIndex("Budget", choice, 0, "none\0limited\0",
@@ -87,6 +94,7 @@ planet::TraceSelectorSettings settingsOf(const WhatIfPanelState& state) {
     planet::TraceSelectorSettings settings;
     if (state.changesHysteresis) settings.hysteresis = state.hysteresis;
     if (state.hasBudget) settings.budgetBytes = static_cast<std::uint64_t>(state.budgetMb * bytesOfMb);
+    settings.metric = state.metric;
     settings.residency = state.residency;
     settings.disk = {state.latencyMs / 1e3, state.mbPerS * bytesOfMb, state.loaders};
     return settings;
@@ -220,6 +228,9 @@ void runControls(const EditorView& view, WhatIfPanelState& state, const TauList&
 std::string settingsText(const planet::TraceSelectorSettings& settings) {
     std::string text = settings.hysteresis ? fmt::format("hysteresis {:g}", *settings.hysteresis)
                                            : std::string("hysteresis as told");
+    if (settings.metric != TraceMetric::Bounds)
+        text +=
+            settings.metric == TraceMetric::Sphere ? ", distance to the sphere" : ", distance to the centre";
     text += settings.budgetBytes
                 ? fmt::format(", budget {}", megabytesText(static_cast<double>(*settings.budgetBytes)))
                 : std::string(", no budget");
@@ -449,6 +460,7 @@ void whatIfPanel(const EditorView& view, WhatIfPanelState& state, Commands& comm
     const auto controls = [&] {
         const TauList taus = tauListControl(state.taus, "A row of the table each.");
         hysteresisControl(state);
+        metricControl(state);
         budgetControl(state);
         dataControl(state);
         runControls(view, state, taus, result, commands);

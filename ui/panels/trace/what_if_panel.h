@@ -28,6 +28,7 @@ struct WhatIfPanelState {
     std::array<char, 192> taus{"0.5 1 2 4 8"};
     bool changesHysteresis = false;  // otherwise as the engine told it
     double hysteresis = 0.1;         // [0, 0.9]
+    planet::TraceMetric metric = planet::TraceMetric::Bounds;
     bool hasBudget = false;
     double budgetMb = 64;  // > 0, 10^6 bytes
     planet::TraceResidency residency = planet::TraceResidency::AllThere;

@@ -116,7 +116,8 @@ TEST_F(WhatIfPanel, asksForARowForEachTolerance) {
 }
 
 TEST_F(WhatIfPanel, asksForOtherHysteresisBudgetAndDisk) {
-    for (const std::string_view item : {"Hysteresis: other", "Budget: limited", "Data: disk model"}) {
+    for (const std::string_view item :
+         {"Hysteresis: other", "Metric: centre", "Budget: limited", "Data: disk model"}) {
         click(item.substr(0, item.find(':')));
         click(item);
     }
@@ -126,6 +127,7 @@ TEST_F(WhatIfPanel, asksForOtherHysteresisBudgetAndDisk) {
     ASSERT_EQ(request.settings.size(), 5u);
     for (const planet::TraceSelectorSettings& settings : request.settings) {
         EXPECT_EQ(settings.hysteresis, 0.1);
+        EXPECT_EQ(settings.metric, planet::TraceMetric::Centre);
         EXPECT_EQ(settings.budgetBytes, 64'000'000u);
         EXPECT_EQ(settings.residency, planet::TraceResidency::Disk);
         EXPECT_EQ(settings.disk.latencyS, 0.02);
