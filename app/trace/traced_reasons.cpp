@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "app/base/text.h"
+#include "planet/trace/lod_trace.h"
 
 namespace worldy {
 
@@ -117,6 +119,42 @@ void sayParent(Reasons& why) {
             name, px(parent->errorPx), px(why.mergePx()));
 }
 
+// Names the coarsest drawn neighbour on the node's own face, and says what hides the gap between them.
+void sayNeighbour(Reasons& why) {
+    if (why.frame.description.value_or(planet::TraceDescription{}).ids != planet::TraceIds::Quadtree) return;
+    constexpr std::uint64_t coordinate = (1u << 28) - 1;
+    const std::uint64_t id = why.node.node.id;
+    const auto face = static_cast<std::uint32_t>(id >> 61);
+    const auto level = static_cast<std::uint32_t>(id >> 56 & 31);
+    const auto x = static_cast<std::int64_t>(id & coordinate);
+    const auto y = static_cast<std::int64_t>(id >> 28 & coordinate);
+    const TracedNode* coarsest = nullptr;
+    for (const auto& [nextX, nextY] :
+         {std::pair{x - 1, y}, std::pair{x + 1, y}, std::pair{x, y - 1}, std::pair{x, y + 1}}) {
+        const std::int64_t side = std::int64_t{1} << level;
+        if (nextX < 0 || nextY < 0 || nextX >= side || nextY >= side) continue;
+        for (std::uint32_t up = 1; up <= level; ++up) {
+            const auto parentX = static_cast<std::uint32_t>(nextX >> up);
+            const auto parentY = static_cast<std::uint32_t>(nextY >> up);
+            if (parentX == x >> up && parentY == y >> up) break;  // its own ancestor
+            const TracedNode* const beside =
+                why.view.find(lod_trace_quadtree_id(face, level - up, parentX, parentY));
+            if (!beside || beside->place != TracedPlace::Drawn) continue;
+            if (!coarsest || beside->node.level < coarsest->node.level) coarsest = beside;
+        }
+    }
+    if (!coarsest) return;
+    const std::uint32_t steps = level - coarsest->node.level;
+    const auto setting = why.frame.settings.find("skirts");
+    const double* const skirts =
+        setting == why.frame.settings.end() ? nullptr : std::get_if<double>(&setting->second);
+    why.say("Its neighbour {} is {} {} coarser, so their edges differ{}", why.name(*coarsest), steps,
+            steps == 1 ? "level" : "levels",
+            !skirts        ? ". The engine told no setting \"skirts\"."
+            : *skirts != 0 ? ": the engine's skirts hide the gap (skirts is on)."
+                           : " and a crack may show: the engine draws no skirts (skirts is off).");
+}
+
 void saySplit(Reasons& why) {
     const double errorPx = why.node.errorPx;
     if (std::isnan(errorPx)) return why.say("It is split. Its error on screen is not known.");
@@ -189,6 +227,7 @@ std::vector<std::string> tracedReasons(const TracedFrame& frame, const TracedVie
         case TracedPlace::Drawn:
             sayDrawn(why);
             sayParent(why);
+            sayNeighbour(why);
             break;
         case TracedPlace::Split:
             saySplit(why);

@@ -78,6 +78,29 @@ TEST_F(TraceDocuments, numbersBesideTheTraceShowItsNearestFrame) {
     EXPECT_EQ(read(document, 1'000'000)->frame.number, test::smallTraceFrames);
 }
 
+TEST_F(TraceDocuments, aDrawnNodeTellsItsCoarserNeighbourAndWhatHidesTheGap) {
+    test::writeSmallTrace(file_);
+    TraceDocument document(file_, false);
+    TracedFrame frame = *read(document, 50);
+    const auto told = [&](std::uint64_t id) {
+        std::string all;
+        for (const std::string& sentence : tracedReasons(frame, frame.views[0], *frame.views[0].find(id)))
+            all += sentence + "\n";
+        return all;
+    };
+    const std::uint64_t atTheEdge = smallTraceId(2, 1, 0);
+    EXPECT_NE(told(atTheEdge).find(
+                  "1 level coarser, so their edges differ. The engine told no setting \"skirts\"."),
+              std::string::npos)
+        << told(atTheEdge);
+    frame.settings["skirts"] = 1.0;
+    EXPECT_NE(told(atTheEdge).find("the engine's skirts hide the gap"), std::string::npos);
+    frame.settings["skirts"] = 0.0;
+    EXPECT_NE(told(atTheEdge).find("the engine draws no skirts"), std::string::npos);
+    EXPECT_EQ(told(smallTraceId(2, 0, 0)).find("coarser, so"), std::string::npos)
+        << "its neighbours are as fine";
+}
+
 TEST_F(TraceDocuments, aFrameKnowsItsQueueItsSwitchesAndTheStateOfItsNodes) {
     test::writeSmallTrace(file_);
     TraceDocument document(file_, false);
