@@ -114,6 +114,7 @@ float confirmationLine(Confirmation& confirmation, double timeS, const Rect& vie
 
 void alertBoxes(std::vector<Alert>& alerts, double timeS, const Rect& viewport, float top) {
     std::erase_if(alerts, [&](const Alert& alert) { return timeS > alert.untilS; });
+    top = std::max(top, viewport.y + 2 * ImGui::GetFontSize());  // below the planet's name
     std::optional<std::size_t> clicked;
     std::size_t drawn = 0;
     for (; drawn < alerts.size() && top < viewport.y + viewport.height / 2; ++drawn) {

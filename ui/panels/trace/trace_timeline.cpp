@@ -59,7 +59,7 @@ std::vector<Strip> stripsOf(const EditorView& view, const TraceTimelineState& st
             const float count = of(&TracedViewSample::triangles)(i);
             return count > 0 ? count : unknown;
         };
-        strips.push_back({"", {{std::string("triangles"), seriesColour(7), triangles}}});
+        strips.push_back({"triangles", {{std::string("drawn"), seriesColour(7), triangles}}});
         strips.push_back({"nodes",
                           {{"splits", palette().accent, of(&TracedViewSample::splits)},
                            {"merges", palette().warning, of(&TracedViewSample::merges)}}});

@@ -9,6 +9,7 @@
 #include "tests/support/panel_fixture.h"
 #include "tests/support/small_trace.h"
 #include "tests/support/temporary_folder.h"
+#include "ui/kit/exports.h"
 #include "ui/shell/panels.h"
 
 namespace worldy::ui {
@@ -112,6 +113,29 @@ TEST_F(TracePanels, numbersThatAreNoneDrawToo) {
     const Legend legend = traceLegend(TraceColouring::Level, frame.views.at(0));
     ASSERT_EQ(legend.entries.size(), 2u);  // and the mark of the node that waits
     EXPECT_EQ(legend.entries[0].label, "4294967295");
+}
+
+TEST_F(TracePanels, theTimelineHasTheTrianglesThatTheEngineTold) {
+    ExportState exports;
+    const auto samples = [&] {
+        Commands commands;
+        const auto drawn = [&] {
+            beginExports(exports, commands);
+            window_.frame([&] { drawPanel(PanelId::Trace, view(), states_, settings_, commands); });
+            endExports();
+        };
+        for (int i = 0; i < 3; ++i) drawn();
+        window_.click("timeline menu", 0.5f, drawn);
+        window_.click("Copy samples", 0.5f, drawn);
+        return find<CopyText>(commands).value_or(CopyText{}).text;
+    };
+    const std::string told = samples();
+    EXPECT_NE(told.find("drawn (triangles)"), std::string::npos) << told.substr(0, 200);
+    EXPECT_NE(told.find("\t896"), std::string::npos);  // seven nodes of 128
+    TraceHistory untold = *history_;
+    for (TracedViewSample& sample : untold.views.at(0)) sample.triangles = 0;
+    history_ = std::make_shared<TraceHistory>(untold);
+    EXPECT_EQ(samples().find("triangles"), std::string::npos);
 }
 
 TEST_F(TracePanels, attachAsksForThePort) {
