@@ -753,8 +753,8 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
 void pagingControls(const EditorView& view, const SettingControls& control, ViewSettings& settings,
                     Commands& commands) {
     residentMemory(view);
-    settingControls(control, settings.paging, view.planet->colour().has_value());
     buttons(view, commands);
+    settingControls(control, settings.paging, view.planet->colour().has_value());
 }
 
 // Draws the tab of failed blocks; its title shows their number.
