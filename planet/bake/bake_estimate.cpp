@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "planet/bake/bake_tile.h"
@@ -200,6 +201,21 @@ Result<std::vector<TreeUnit>> placesToBake(const BakeContext& bake, const std::f
     return units;
 }
 
+// Returns the memory of a bake of heights.
+std::uint64_t memoryOfBake(const HeightSource& source, const BakeSettings& settings,
+                           const PlanetShape& shape) {
+    constexpr std::uint64_t libraryBytes = 12u << 20;   // of GDAL and PROJ, and of the image library
+    constexpr std::uint64_t usualCallBytes = 2u << 20;  // samples that a call reads at once
+    constexpr std::uint64_t bytesPerSampleAtWork = 96;  // heights, quanta, steps, positions and errors
+    const int tileLevels = deepestLevelOf(shape) - tileLevelOf(shape, settings.tileLevels);
+    const std::uint64_t side = (static_cast<std::uint64_t>(chunkCells(shape)) << tileLevels) + 1;
+    const std::uint64_t callBytes = std::min(source.sampleCount * sizeof(float), usualCallBytes);
+    const auto threads = static_cast<std::uint64_t>(
+        std::min(bakeThreads(settings), static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u))));
+    return source.memoryBytes + (source.sampleCount > 0 ? libraryBytes : 0) +
+           threads * (callBytes + side * side * bytesPerSampleAtWork);
+}
+
 Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSettings& settings,
                                      const std::function<bool()>& goOn) {
     TRY(checkBakeSettings(settings));
@@ -214,6 +230,7 @@ Result<BakeEstimate> estimateHeights(const HeightSource& source, const BakeSetti
     estimate.samples = tree->leafCells + 2;
     estimate.chunks = tree->chunks;
     estimate.coarsestLeafLevel = tree->coarsestLeafLevel;
+    estimate.bakeBytes = memoryOfBake(source, settings, shape);
     const Stopwatch stopwatch;
     BakeScratch scratch;
     TRY_ASSIGN(const auto roots, rootBytes(context, scratch));
@@ -241,6 +258,7 @@ Result<BakeEstimate> estimateBake(const HeightSource& source, const BakeSettings
                                                    defaultColourCacheBytes, goOn));
     estimate->fileBytes += colours.fileBytes;
     estimate->seconds += colours.seconds;
+    estimate->bakeBytes += colours.bakeBytes;
     estimate->colour = colours;
     return estimate;
 }

@@ -16,9 +16,12 @@ struct BakeEstimate {
     PlanetShape shape;
     std::uint64_t samples = 0;  // of all leaves, each distinct
     std::uint64_t chunks = 0;
-    int coarsestLeafLevel = 0;               // the deepest level if the tree is dense
-    double fileBytes = 0;                    // including colours
-    double seconds = 0;                      // on this machine with the settings' threads, including colours
+    int coarsestLeafLevel = 0;  // the deepest level if the tree is dense
+    double fileBytes = 0;       // including colours
+    double seconds = 0;         // on this machine with the settings' threads, including colours
+    // Memory of the bake besides the program's own, within a factor of two: the source's caches, the threads' work and
+    // colours.
+    std::uint64_t bakeBytes = 0;
     std::optional<ColourEstimate> colour{};  // for a bake with colours
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 #include <string_view>
 #include <system_error>
@@ -91,6 +92,15 @@ bool isGdalRaster(const std::filesystem::path& path) {
 
 bool isVrtFile(const std::filesystem::path& path) {
     return isFileOf(vrtOnly.data(), path);
+}
+
+bool isPlacedBand(const std::filesystem::path& path) {
+    const QuietErrors quiet;
+    const DataSet dataSet = openDataSet(path.string(), false);
+    std::array<double, 6> corner{};
+    return dataSet && GDALGetRasterCount(dataSet.get()) == 1 &&
+           GDALGetGeoTransform(dataSet.get(), corner.data()) == CE_None &&
+           std::ranges::all_of(corner, [](double number) { return std::isfinite(number); });
 }
 
 }  // namespace planet

@@ -38,6 +38,9 @@ bool isGdalRaster(const std::filesystem::path& path);
 // Returns whether GDAL recognises a file as a VRT.
 bool isVrtFile(const std::filesystem::path& path);
 
+// Returns whether GDAL finds one band in a file, and the coordinates of its samples.
+bool isPlacedBand(const std::filesystem::path& path);
+
 // Opens a file, or the text of a VRT that was checked; null if it cannot be read.
 DataSet openDataSet(const std::string& name, bool isVrt);
 

@@ -2,6 +2,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
@@ -30,7 +31,10 @@ constexpr int leastBlockSide = 128;                    // samples; smaller block
 constexpr std::int64_t mostBlockSamples = 16LL << 20;  // a larger block could not be read in bounded memory
 // A survey reads every sample. More, in a header that lies, would keep it busy for hours.
 constexpr std::int64_t mostRasterSamples = std::int64_t{1} << 38;
-constexpr std::size_t mostIdle = 64;  // data sets
+// No compression of real heights stores more samples in a byte. A file of so many samples is read for hours otherwise.
+constexpr std::int64_t mostSamplesPerByte = 10'000;
+constexpr std::int64_t alwaysRead = std::int64_t{1} << 32;  // samples
+constexpr std::size_t mostIdle = 64;                        // data sets
 
 struct SpatialReferenceReleaser {
     void operator()(OGRSpatialReferenceH reference) const { OSRRelease(reference); }
@@ -162,6 +166,21 @@ Result<void> setPlace(const std::string& file, GDALDatasetH dataSet, RasterLayou
                     file));
 }
 
+// Says which datum the heights of a file have by its reference system.
+void setDatum(OGRSpatialReferenceH reference, RasterLayout& layout) {
+    if (OSRIsCompound(reference) == 0) {
+        if (OSRGetAxesCount(reference) < 3) return;
+        layout.verticalName = "ellipsoidal height";
+        layout.datum = VerticalDatum::Ellipsoid;
+        return;
+    }
+    const char* const name = OSRGetAttrValue(reference, "VERT_CS", 0);
+    layout.verticalName = name && *name != 0 ? name : "an unnamed vertical datum";
+    if (layout.verticalName.find("EGM96") != std::string::npos) layout.datum = VerticalDatum::Egm96;
+    if (layout.verticalName.find("EGM2008") != std::string::npos) layout.datum = VerticalDatum::Egm2008;
+    if (layout.verticalName.find("llipsoid") != std::string::npos) layout.datum = VerticalDatum::Ellipsoid;
+}
+
 Result<void> setReferenceSystem(const std::string& file, GDALDatasetH dataSet, RasterLayout& layout) {
     const OGRSpatialReferenceH found = GDALGetSpatialRef(dataSet);
     if (!found || OSRIsLocal(found) != 0) {
@@ -171,6 +190,7 @@ Result<void> setReferenceSystem(const std::string& file, GDALDatasetH dataSet, R
                         file));
     }
     const SpatialReference reference(OSRClone(found));
+    setDatum(reference.get(), layout);
     if (OSRIsCompound(reference.get()) != 0) OSRStripVertical(reference.get());
     const char* const name = OSRGetName(reference.get());
     layout.crsName = name ? name : "unnamed";
@@ -202,6 +222,38 @@ Result<void> setBlocks(const std::string& file, GDALRasterBandH band, RasterLayo
     if (samples <= mostBlockSamples) return {};
     return badInput(fmt::format("{}: has blocks of {} x {} samples; expected at most {} samples in a block",
                                 file, width, height, mostBlockSamples));
+}
+
+// Returns the bytes of all files of a data set.
+std::int64_t fileBytesOf(GDALDatasetH dataSet) {
+    std::int64_t bytes = 0;
+    char** const files = GDALGetFileList(dataSet);
+    for (char** file = files; file && *file; ++file) {
+        std::error_code problem;
+        const std::uintmax_t size = std::filesystem::file_size(*file, problem);
+        if (!problem) bytes += static_cast<std::int64_t>(size);
+    }
+    CSLDestroy(files);
+    return bytes;
+}
+
+// Refuses a raster that claims far more samples than its files can hold. Those that a file stores nothing for count only
+// if they have a height.
+Result<void> checkSampleCount(const std::string& file, GDALDatasetH dataSet, GDALRasterBandH band,
+                              const RasterLayout& layout) {
+    const std::int64_t samples = std::int64_t{layout.width} * layout.height;
+    if (samples <= alwaysRead) return {};
+    const std::int64_t bytes = fileBytesOf(dataSet);
+    const std::int64_t most = std::max(alwaysRead, bytes * mostSamplesPerByte);
+    if (samples <= most) return {};
+    double storedPercent = 100;
+    if (layout.conversion.noDataValue)
+        GDALGetDataCoverageStatus(band, 0, 0, layout.width, layout.height, 0, &storedPercent);
+    if (storedPercent / 100 * static_cast<double>(samples) <= static_cast<double>(most)) return {};
+    return badInput(fmt::format(
+        "{}: is {} x {} samples in files of {} bytes; expected at most {} samples in them, besides "
+        "empty blocks of a raster with a no-data value",
+        file, layout.width, layout.height, bytes, most));
 }
 
 Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatasetH dataSet, int bandNumber,
@@ -246,8 +298,17 @@ Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatas
     TRY_ASSIGN(layout.conversion, conversionFor(file, settings, type, bandTags(band)));
     layout.conversion.type = SampleType::Float;
     layout.conversion.fillM = std::numeric_limits<float>::quiet_NaN();
+    TRY(checkSampleCount(file, dataSet, band, layout));
     if (isInteger(known->type)) layout.stepM = std::abs(layout.conversion.metresPerUnit);
     return layout;
+}
+
+// Returns the number of the band that says how opaque samples are; 0 if there is none.
+int alphaBandOf(GDALDatasetH dataSet) {
+    for (int band = 1; band <= GDALGetRasterCount(dataSet); ++band) {
+        if (GDALGetRasterColorInterpretation(GDALGetRasterBand(dataSet, band)) == GCI_AlphaBand) return band;
+    }
+    return 0;
 }
 
 bool hasMaskBand(GDALDatasetH dataSet, int band) {
@@ -257,8 +318,8 @@ bool hasMaskBand(GDALDatasetH dataSet, int band) {
 
 }  // namespace
 
-Result<std::shared_ptr<const Raster>> GdalRaster::open(const std::filesystem::path& path,
-                                                       const HeightSourceSettings& settings) {
+Result<std::shared_ptr<const GdalRaster>> GdalRaster::open(const std::filesystem::path& path,
+                                                           const HeightSourceSettings& settings) {
     std::error_code problem;
     if (!std::filesystem::exists(path, problem))
         return ioError(fmt::format("{}: no such file", path.string()));
@@ -285,6 +346,9 @@ Result<std::shared_ptr<const Raster>> GdalRaster::open(const std::filesystem::pa
         raster->chooseBands(dataSet.get(), *settings.colourChannel);
     TRY_ASSIGN(raster->layout_, rasterLayoutOf(path, dataSet.get(), raster->band_, settings));
     raster->hasMask_ = hasMaskBand(dataSet.get(), raster->band_);
+    raster->hasNoData_ = !settings.colourChannel && raster->layout_.conversion.noDataValue.has_value();
+    // GDAL makes a mask only of alpha with 8 or 16 bits.
+    if (!raster->hasMask_) raster->alphaBand_ = alphaBandOf(dataSet.get());
     idleDataSets().giveBack(raster.get(), std::move(dataSet));
     return raster;
 }
@@ -302,6 +366,23 @@ void GdalRaster::chooseBands(void* dataSet, int channel) {
     int given = 0;
     voidValue_ = GDALGetRasterNoDataValue(band, &given);
     if (given != 0) voidBands_ = bands;
+}
+
+// Reads what a mask or alpha shows; 0: hidden.
+bool GdalRaster::readMask(void* dataSet, int x, int y, int width, int height,
+                          std::vector<std::uint8_t>& mask) const {
+    if (hasMask_) {
+        GDALRasterBandH const band = GDALGetMaskBand(GDALGetRasterBand(dataSet, band_));
+        return GDALRasterIO(band, GF_Read, x, y, width, height, mask.data(), width, height, GDT_Byte, 0, 0) ==
+               CE_None;
+    }
+    GDALRasterBandH const band = GDALGetRasterBand(dataSet, alphaBand_);
+    std::vector<float> alpha(mask.size());
+    if (!band || GDALRasterIO(band, GF_Read, x, y, width, height, alpha.data(), width, height, GDT_Float32, 0,
+                              0) != CE_None)
+        return false;
+    std::ranges::transform(alpha, mask.begin(), [](float a) -> std::uint8_t { return a > 0 ? 1 : 0; });
+    return true;
 }
 
 // Replaces indices by their colours, [0, 255]; those that the table does not have become NaN.
@@ -341,6 +422,21 @@ bool GdalRaster::readVoids(void* dataSet, int x, int y, int width, int height,
     return true;
 }
 
+bool GdalRaster::isEmpty(int blockX, int blockY) const {
+    if (!hasNoData_) return false;
+    const int x = blockX * layout_.blockWidth;
+    const int y = blockY * layout_.blockHeight;
+    DataSet dataSet = idleDataSets().borrow(this);
+    if (!dataSet) return false;
+    const QuietErrors quiet;
+    GDALRasterBandH const band = GDALGetRasterBand(dataSet.get(), band_);
+    const int status = GDALGetDataCoverageStatus(band, x, y, std::min(layout_.blockWidth, layout_.width - x),
+                                                 std::min(layout_.blockHeight, layout_.height - y),
+                                                 GDAL_DATA_COVERAGE_STATUS_DATA, nullptr);
+    idleDataSets().giveBack(this, std::move(dataSet));
+    return status == GDAL_DATA_COVERAGE_STATUS_EMPTY;
+}
+
 Result<std::vector<float>> GdalRaster::readBlock(int blockX, int blockY) const {
     const int x = blockX * layout_.blockWidth;
     const int y = blockY * layout_.blockHeight;
@@ -365,11 +461,9 @@ Result<std::vector<float>> GdalRaster::readBlock(int blockX, int blockY) const {
         CE_None)
         return unreadable();
     std::vector<std::uint8_t> mask;
-    if (hasMask_) {
+    if (hidesSamples()) {
         mask.resize(count);
-        if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, x, y, width, height, mask.data(), width, height,
-                         GDT_Byte, 0, 0) != CE_None)
-            return unreadable();
+        if (!readMask(dataSet.get(), x, y, width, height, mask)) return unreadable();
     }
     if (!voidBands_.empty()) {
         mask.resize(count, 1);

@@ -195,8 +195,8 @@ Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
                                      const HeightConversion& conversion, const RasterMemory& memory,
                                      const FileCalls& calls = systemFileCalls());
 
-// Opens a headerless file of size x size samples, rows from the top. The caller must check its length.
-Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
+// Opens a headerless file of width x height samples, rows from the top. The caller must check its length.
+Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int width, int height,
                                    const HeightConversion& conversion, const RasterMemory& memory,
                                    const FileCalls& calls = systemFileCalls());
 

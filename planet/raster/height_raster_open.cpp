@@ -157,7 +157,7 @@ Result<HeightRaster> openImageRaster(const std::shared_ptr<ImageFile>& image,
                                                 : openSpilled(*image, conversion, memory, calls);
 }
 
-Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
+Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int width, int height,
                                    const HeightConversion& conversion, const RasterMemory& memory,
                                    const FileCalls& calls) {
     TRY_ASSIGN(auto opened, OpenFile::open(path, O_RDONLY | O_NONBLOCK, calls));
@@ -166,10 +166,10 @@ Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
     const auto readBlock = [=](int blockX, int blockY, std::span<std::byte> native) -> Result<void> {
         const int x = blockX * rawBlockSide;
         const int y = blockY * rawBlockSide;
-        const auto columns = static_cast<std::size_t>(std::min(rawBlockSide, size - x));
-        for (int row = 0; row < std::min(rawBlockSide, size - y); ++row) {
+        const auto columns = static_cast<std::size_t>(std::min(rawBlockSide, width - x));
+        for (int row = 0; row < std::min(rawBlockSide, height - y); ++row) {
             const std::uint64_t sample =
-                static_cast<std::uint64_t>(y + row) * static_cast<std::uint64_t>(size) +
+                static_cast<std::uint64_t>(y + row) * static_cast<std::uint64_t>(width) +
                 static_cast<std::uint64_t>(x);
             const auto into = native.subspan(static_cast<std::size_t>(row) * rawBlockSide * sampleBytes,
                                              columns * sampleBytes);
@@ -177,7 +177,7 @@ Result<HeightRaster> openRawRaster(const std::filesystem::path& path, int size,
         }
         return {};
     };
-    return HeightRaster::inBlocks(size, size, conversion,
+    return HeightRaster::inBlocks(width, height, conversion,
                                   {rawBlockSide, rawBlockSide, readBlock, memory.cache, memory.cacheSlot});
 }
 

@@ -19,6 +19,7 @@ struct HeightSourceSettings {
     std::optional<double> noDataValue;
     double fillM = 0;            // height of missing samples, metres
     std::optional<int> rawSize;  // raw faces: samples per side, if the name does not say
+    std::optional<int> rawRows;  // raw images with a place: rows of rawSize samples; unset: rawSize
     std::optional<int> rawBits;  // raw faces: 8 or 16, if the file's length does not say
     bool rawSigned = false;      // raw faces of 16 bits: signed steps
     bool rawBigEndian = false;   // raw faces of 16 bits

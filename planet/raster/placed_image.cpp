@@ -62,39 +62,48 @@ RasterMemory memoryOf(const HeightSourceSettings& settings) {
     return {std::make_shared<HeightBlockCache>(0), 0, settings.cacheBytes / 2};
 }
 
-Result<int> rawSideOf(const std::filesystem::path& path, const HeightSourceSettings& settings) {
+struct RawSize {
+    int columns = 0;
+    int rows = 0;
+};
+
+Result<RawSize> rawSizeOf(const std::filesystem::path& path, const HeightSourceSettings& settings) {
     std::error_code problem;
     const std::uintmax_t bytes = std::filesystem::file_size(path, problem);
     if (problem) return ioError(fmt::format("{}: {}", path.string(), problem.message()));
     const auto squareSide = static_cast<std::uintmax_t>(
         std::llround(std::sqrt(static_cast<double>(bytes) / static_cast<double>(rawSampleBytes))));
-    const std::uintmax_t side =
-        settings.rawSize ? static_cast<std::uintmax_t>(*settings.rawSize) : squareSide;
-    if (side < 2 || side > mostRawSide) {
-        return badInput(fmt::format("{}: is {} samples per side; expected [2, {}] samples of 16 bits",
-                                    path.string(), side, mostRawSide));
+    const auto given = [](int size) { return static_cast<std::uintmax_t>(size); };
+    const std::uintmax_t columns = settings.rawSize ? given(*settings.rawSize) : squareSide;
+    const std::uintmax_t rows = settings.rawRows ? given(*settings.rawRows) : columns;
+    if (columns < 2 || columns > mostRawSide || rows < 1 || rows > mostRawSide) {
+        return badInput(fmt::format("{}: is {} x {} samples; expected [2, {}] samples of 16 bits per side",
+                                    path.string(), columns, rows, mostRawSide));
     }
-    if (side * side * rawSampleBytes == bytes) return static_cast<int>(side);
+    if (columns * rows * rawSampleBytes == bytes)
+        return RawSize{static_cast<int>(columns), static_cast<int>(rows)};
     if (!settings.rawSize) {
         return badInput(
             fmt::format("{}: has {} bytes, which is no square of 16-bit samples; expected raw_size squared "
-                        "times 2 bytes, without a header",
+                        "times 2 bytes, or raw_size = [columns, rows], without a header",
                         path.string(), bytes));
     }
+    const std::string size =
+        settings.rawRows ? fmt::format("[{}, {}]", columns, rows) : std::to_string(columns);
     return badInput(fmt::format("{}: has {} bytes; expected {} for raw_size = {} and 16-bit samples",
-                                path.string(), bytes, side * side * rawSampleBytes, side));
+                                path.string(), bytes, columns * rows * rawSampleBytes, size));
 }
 
 Result<Samples> openRawSamples(const std::filesystem::path& path, const HeightSourceSettings& settings) {
-    TRY_ASSIGN(const int side, rawSideOf(path, settings));
+    TRY_ASSIGN(const auto size, rawSizeOf(path, settings));
     Samples samples;
     const SampleType type = settings.rawSigned ? SampleType::Int16 : SampleType::Uint16;
     TRY_ASSIGN(samples.conversion, conversionFor(path.string(), settings, type, {}));
     samples.conversion.swapBytes = settings.rawBigEndian != (std::endian::native == std::endian::big);
     samples.conversion.fillM = std::numeric_limits<float>::quiet_NaN();
     samples.typeName = settings.rawSigned ? "int16" : "uint16";
-    TRY_ASSIGN(samples.heights,
-               openRawRaster(path, side, samples.conversion, memoryOf(settings), settings.fileCalls));
+    TRY_ASSIGN(samples.heights, openRawRaster(path, size.columns, size.rows, samples.conversion,
+                                              memoryOf(settings), settings.fileCalls));
     return samples;
 }
 

@@ -20,7 +20,7 @@ struct ImagePlace {
 };
 
 // Opens an image, or a headerless file of 16-bit samples (.raw, .r16) in rows from the top, of settings.rawSize samples
-// per side; without it the file must be square.
+// per side, or settings.rawRows rows of so many; without it the file must be square.
 //
 // The grid lies in a Lambert azimuthal equal-area projection of a sphere around the place. A sample has the same area
 // everywhere, so one spacing of the leaves suits the whole image. The Error says that the file is unreadable, that it

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planet/base/result.h"
 #include "planet/raster/height_raster.h"
+#include "planet/raster/vertical_datum.h"
 
 namespace planet {
 
@@ -20,11 +22,13 @@ struct RasterLayout {
     // column + x[2] row, and y likewise.
     std::array<double, 3> x{};
     std::array<double, 3> y{};
-    std::string crs;              // the horizontal coordinate reference system as WKT 2 or a PROJ string
-    std::string crsName;          // "WGS 84 / UTM zone 19S"
-    std::string typeName;         // "int16"
-    HeightConversion conversion;  // from floats, which hold the values of all types that heights need
-    double stepM = 0;             // of an integer raster, metres; 0 for floats
+    std::string crs;           // the horizontal coordinate reference system as WKT 2 or a PROJ string
+    std::string crsName;       // "WGS 84 / UTM zone 19S"
+    std::string verticalName;  // "EGM96 height", which the file says its heights are; empty: it does not say
+    std::optional<VerticalDatum> datum;  // of that name; unset: none that a world file can name
+    std::string typeName;                // "int16"
+    HeightConversion conversion;         // from floats, which hold the values of all types that heights need
+    double stepM = 0;                    // of an integer raster, metres; 0 for floats
 };
 
 // An open raster. Several threads may read at once.
@@ -40,6 +44,8 @@ public:
     // Reads a block as heights in metres, row-major, with NaN for missing samples. The last blocks of a row or column
     // are narrower or lower. The Error names the file and the block.
     virtual Result<std::vector<float>> readBlock(int blockX, int blockY) const = 0;
+    // Returns whether the file is known to store nothing for a block, whose samples are all missing then.
+    virtual bool isEmpty(int /*blockX*/, int /*blockY*/) const { return false; }
 
 protected:
     Raster() = default;

@@ -6,8 +6,10 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "planet/base/parallel.h"
 #include "planet/sphere/cube_sphere.h"
@@ -20,14 +22,26 @@ namespace {
 constexpr int cellSamples = 32;    // samples along a square of the survey
 constexpr int latticeSamples = 8;  // samples between the places that are converted
 constexpr int cellSamplesLog2 = 5;
+constexpr std::int64_t leastResolutionApart = 1024;  // samples between places where the resolution is taken
+constexpr std::int64_t mostResolutionsAlong = 256;
 constexpr std::int64_t capPlaces = 32;  // places along a side of a tile that its cap is made from
 constexpr double differenceRad = 1e-6;
+constexpr double latitudeSlackRad = 0.02;  // of a grid that does not follow the parallels
 
 // A block of a tile that is surveyed by one call.
 struct SurveyBlock {
     std::size_t tile = 0;
     int x = 0;
     int y = 0;
+};
+
+// A square of the survey on the grid of a mosaic: samples from cellSamples * column and cellSamples * row on. It depends
+// only on the grid, so that tiles and blocks do not change what is covered.
+struct SurveyCell {
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+
+    auto operator<=>(const SurveyCell&) const = default;
 };
 
 std::vector<SurveyBlock> blocksOf(const RasterMosaic& mosaic) {
@@ -68,11 +82,13 @@ struct Lattice {
         std::vector<double> latitudes(columns.size());
         placement.toPlanet(columns, rows, longitudes, latitudes);
         std::vector<glm::dvec3> found;
+        // The outer edge of an image of the whole planet can lie beyond a pole.
+        const double mostBeyondRad = placement.isGeographic() ? 1 / placement.rowsPerRad() : latitudeSlackRad;
         for (std::size_t i = 0; i < columns.size(); ++i) {
-            // The outer edge of an image of the whole planet can lie beyond a pole.
+            if (!std::isfinite(longitudes[i])) continue;
+            if (!(std::abs(latitudes[i]) <= std::numbers::pi / 2 + mostBeyondRad)) continue;
             const double latitude = std::clamp(latitudes[i], -std::numbers::pi / 2, std::numbers::pi / 2);
-            if (std::isfinite(longitudes[i]) && std::isfinite(latitudes[i]))
-                found.push_back(directionFromGeographic({latitude, longitudes[i]}));
+            found.push_back(directionFromGeographic({latitude, longitudes[i]}));
         }
         return found;
     }
@@ -82,43 +98,61 @@ std::uint64_t squareAt(const glm::dvec3& direction, int level) {
     return indexInQuadtreeOrder(chunkAt(facePointFromDirection(direction), level));
 }
 
-void sortUnique(std::vector<std::uint64_t>& values) {
+template <class T>
+void sortUnique(std::vector<T>& values) {
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-// The statistics of a block, and lattices over its cells that hold a height.
+// The statistics of a block, and its cells that hold a height: those that lie in it, and those that its edges cut, of
+// which another block may hold a height too.
 struct BlockSurvey {
     HeightStatistics statistics;
-    Lattice lattice;
+    std::vector<SurveyCell> whole;
+    std::vector<SurveyCell> cut;
 };
+
+GridRect rectOf(const SurveyCell& cell) {
+    return {cell.column * cellSamples, cell.row * cellSamples, cellSamples, cellSamples};
+}
 
 BlockSurvey surveyBlock(const GridRect& rect, std::span<const float> heights) {
     BlockSurvey survey;
-    const auto width = static_cast<int>(rect.columns);
-    const auto height = static_cast<int>(rect.rows);
-    for (int top = 0; top < height; top += cellSamples) {
-        for (int left = 0; left < width; left += cellSamples) {
-            const int columns = std::min(cellSamples, width - left);
-            const int rows = std::min(cellSamples, height - top);
-            std::uint64_t missing = 0;
-            for (int row = top; row < top + rows; ++row) {
-                for (const float h :
-                     heights.subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                         static_cast<std::size_t>(left),
-                                     static_cast<std::size_t>(columns))) {
+    const auto first = [](std::int64_t sample) { return sample >> cellSamplesLog2; };  // rounds down
+    for (std::int64_t cellRow = first(rect.row); cellRow <= first(rect.row + rect.rows - 1); ++cellRow) {
+        for (std::int64_t cellColumn = first(rect.column);
+             cellColumn <= first(rect.column + rect.columns - 1); ++cellColumn) {
+            const SurveyCell cell{cellColumn, cellRow};
+            const GridRect part = sharedBy(rectOf(cell), rect);
+            std::int64_t missing = 0;
+            for (std::int64_t row = part.row; row < part.row + part.rows; ++row) {
+                const auto from =
+                    static_cast<std::size_t>((row - rect.row) * rect.columns + part.column - rect.column);
+                for (const float h : heights.subspan(from, static_cast<std::size_t>(part.columns))) {
                     missing += std::isnan(h) ? 1 : 0;
                     survey.statistics.minM = std::min(survey.statistics.minM, h);  // unchanged by NaN
                     survey.statistics.maxM = std::max(survey.statistics.maxM, h);
                 }
             }
-            survey.statistics.missingCount += missing;
-            if (missing < static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows)) {
-                survey.lattice.add({rect.column + left, rect.row + top, columns, rows}, latticeSamples);
-            }
+            survey.statistics.missingCount += static_cast<std::uint64_t>(missing);
+            if (missing == part.columns * part.rows) continue;
+            const bool isWhole = part.columns == cellSamples && part.rows == cellSamples;
+            (isWhole ? survey.whole : survey.cut).push_back(cell);
         }
     }
     return survey;
+}
+
+// Returns the squares of a level that cells touch, ascending.
+std::vector<std::uint64_t> squaresOf(const RasterMosaic& mosaic, std::span<const SurveyCell> cells,
+                                     int level) {
+    Lattice lattice;
+    for (const SurveyCell& cell : cells) lattice.add(sharedBy(rectOf(cell), mosaic.bounds()), latticeSamples);
+    std::vector<std::uint64_t> squares;
+    for (const glm::dvec3& direction : lattice.directions(mosaic.placement()))
+        squares.push_back(squareAt(direction, level));
+    sortUnique(squares);
+    return squares;
 }
 
 // Returns the largest angle, in radians, that a cell of a face with one cell would cover at the scale of a place.
@@ -133,25 +167,79 @@ double cellRadAt(const glm::dvec3& direction) {
     return 2 * std::max(alongU, alongV) / step;
 }
 
-// Sets the resolution of the area, and of each tile at its middle.
-void setResolution(RasterArea& area) {
+// The resolution of a grid at a place.
+struct Resolution {
+    double mostPerRad = 0;  // samples in a radian along the axis with more of them
+    // Along the axis with fewer samples, which has the resolution: towards the poles, columns stand closer than rows.
+    double leastPerRad = 0;
+    int faceCells = 1;  // that lose no samples
+};
+
+std::pair<double, double> middleOf(const GridRect& rect) {
+    return {static_cast<double>(rect.column) + static_cast<double>(rect.columns - 1) / 2,
+            static_cast<double>(rect.row) + static_cast<double>(rect.rows - 1) / 2};
+}
+
+// Returns the resolution at a position on the grid; nothing where the projection does not reach.
+std::optional<Resolution> resolutionAt(const RasterPlacement& placement,
+                                       const std::pair<double, double>& position) {
+    Lattice single;
+    single.columns.push_back(position.first);
+    single.rows.push_back(position.second);
+    const std::vector<glm::dvec3> place = single.directions(placement);
+    if (place.empty()) return std::nullopt;
+    const SampleDensity density = densitiesAt(placement, place)[0];
+    const auto [least, most] = std::minmax(density.columnsPerRad, density.rowsPerRad);
+    if (!std::isfinite(most)) return std::nullopt;
+    return Resolution{most, least, powerOfTwoCells(cellRadAt(place[0]) * least)};
+}
+
+// Sets the resolution of each tile at its middle.
+void setTileSpacings(RasterArea& area) {
     area.tiles.resize(area.mosaic.tiles().size());
     for (std::size_t i = 0; i < area.tiles.size(); ++i) {
-        const GridRect& rect = area.mosaic.tiles()[i].rect;
-        Lattice middle;
-        middle.columns.push_back(static_cast<double>(rect.column) +
-                                 static_cast<double>(rect.columns - 1) / 2);
-        middle.rows.push_back(static_cast<double>(rect.row) + static_cast<double>(rect.rows - 1) / 2);
-        const std::vector<glm::dvec3> place = middle.directions(area.mosaic.placement());
+        const auto found = resolutionAt(area.mosaic.placement(), middleOf(area.mosaic.tiles()[i].rect));
         area.tiles[i].spacingRad = std::numbers::pi;
-        if (place.empty()) continue;
-        const SampleDensity density = densitiesAt(area.mosaic.placement(), place)[0];
-        const auto [least, most] = std::minmax(density.columnsPerRad, density.rowsPerRad);
-        if (!std::isfinite(most)) continue;
-        area.samplesPerRad = std::max(area.samplesPerRad, most);
-        // The axis with fewer samples has the resolution: towards the poles, columns stand closer than rows.
-        area.faceCells = std::max(area.faceCells, powerOfTwoCells(cellRadAt(place[0]) * least));
-        if (least > 0) area.tiles[i].spacingRad = std::min(1 / least, std::numbers::pi);
+        if (found && found->leastPerRad > 0)
+            area.tiles[i].spacingRad = std::min(1 / found->leastPerRad, std::numbers::pi);
+    }
+}
+
+// Returns the positions at which the resolution of a mosaic is taken: its middle, and those of a lattice over its grid
+// that lie on a tile. How the mosaic is cut into tiles changes none of them.
+std::vector<std::pair<double, double>> resolutionPositions(const RasterMosaic& mosaic) {
+    const GridRect& bounds = mosaic.bounds();
+    std::int64_t apart = leastResolutionApart;
+    while (apart * mostResolutionsAlong < std::max(bounds.columns, bounds.rows)) apart *= 2;
+    std::vector<std::pair<double, double>> positions;
+    const auto [column, row] = middleOf(bounds);
+    if (!mosaic.tilesIn({std::llround(column), std::llround(row), 1, 1}).empty())
+        positions.emplace_back(column, row);
+    const auto firstFrom = [&](std::int64_t sample) {
+        std::int64_t first = sample / apart * apart + apart / 2;
+        while (first - apart >= sample) first -= apart;
+        while (first < sample) first += apart;
+        return first;
+    };
+    for (const RasterMosaic::Tile& tile : mosaic.tiles()) {
+        const GridRect& rect = tile.rect;
+        for (std::int64_t y = firstFrom(rect.row); y < rect.row + rect.rows; y += apart) {
+            for (std::int64_t x = firstFrom(rect.column); x < rect.column + rect.columns; x += apart)
+                positions.emplace_back(static_cast<double>(x), static_cast<double>(y));
+        }
+    }
+    if (!positions.empty()) return positions;
+    // Small tiles that lie apart.
+    for (const RasterMosaic::Tile& tile : mosaic.tiles()) positions.push_back(middleOf(tile.rect));
+    return positions;
+}
+
+void setResolution(RasterArea& area) {
+    for (const auto& position : resolutionPositions(area.mosaic)) {
+        const auto found = resolutionAt(area.mosaic.placement(), position);
+        if (!found) continue;
+        area.samplesPerRad = std::max(area.samplesPerRad, found->mostPerRad);
+        area.faceCells = std::max(area.faceCells, found->faceCells);
     }
 }
 
@@ -252,12 +340,14 @@ bool CoveredSquares::meet(const ChunkId& square) const {
 AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
     AreaSurvey survey{{.mosaic = std::move(mosaic), .statistics = {}, .tiles = {}, .covered = {}}, {}};
     RasterArea& area = survey.area;
+    setTileSpacings(area);
     setResolution(area);
     setCaps(area);
     area.covered.level =
         std::clamp(static_cast<int>(std::lround(std::log2(area.faceCells))) - cellSamplesLog2, 0, maxLevel);
     area.stepM = commonStepM(area.mosaic);
     const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
+    std::vector<SurveyCell> cut;
     std::map<std::size_t, Error> broken;
     std::mutex mutex;
     parallelFor(blocks.size(), [&](std::size_t i) {
@@ -269,27 +359,35 @@ AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
             const std::lock_guard lock(mutex);
             if (broken.contains(tileIndex)) return;
         }
+        const int left = x * layout.blockWidth;
+        const int top = y * layout.blockHeight;
+        const GridRect rect{tile.rect.column + left, tile.rect.row + top,
+                            std::min(layout.blockWidth, layout.width - left),
+                            std::min(layout.blockHeight, layout.height - top)};
+        if (tile.raster->isEmpty(x, y)) {
+            const std::lock_guard lock(mutex);
+            const auto samples = static_cast<std::uint64_t>(rect.columns * rect.rows);
+            area.sampleCount += samples;
+            area.statistics.missingCount += samples;
+            return;
+        }
         const Result<std::vector<float>> heights = area.mosaic.readBlock(tileIndex, x, y);
         if (!heights) {
             const std::lock_guard lock(mutex);
             broken.emplace(tileIndex, heights.error());
             return;
         }
-        const int left = x * layout.blockWidth;
-        const int top = y * layout.blockHeight;
-        const BlockSurvey block = surveyBlock(
-            {tile.rect.column + left, tile.rect.row + top, std::min(layout.blockWidth, layout.width - left),
-             std::min(layout.blockHeight, layout.height - top)},
-            *heights);
-        std::vector<std::uint64_t> squares;
-        for (const glm::dvec3& direction : block.lattice.directions(area.mosaic.placement()))
-            squares.push_back(squareAt(direction, area.covered.level));
-        sortUnique(squares);
+        const BlockSurvey block = surveyBlock(rect, *heights);
+        const std::vector<std::uint64_t> squares = squaresOf(area.mosaic, block.whole, area.covered.level);
         const std::lock_guard lock(mutex);
         addTo(area.statistics, block.statistics);
         area.sampleCount += heights->size();
         area.covered.indices.insert(area.covered.indices.end(), squares.begin(), squares.end());
+        cut.insert(cut.end(), block.cut.begin(), block.cut.end());
     });
+    sortUnique(cut);
+    const std::vector<std::uint64_t> squares = squaresOf(area.mosaic, cut, area.covered.level);
+    area.covered.indices.insert(area.covered.indices.end(), squares.begin(), squares.end());
     for (auto& [tile, error] : broken) survey.broken.push_back({tile, std::move(error)});
     sortUnique(area.covered.indices);
     return survey;

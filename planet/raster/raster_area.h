@@ -66,7 +66,7 @@ struct AreaSurvey {
     std::vector<BrokenTile> broken;  // in the order of the tiles
 };
 
-// Reads every sample once. When a stop is requested it returns early, and the survey is not whole.
+// Reads every sample once but those of empty blocks. When a stop is requested it returns early, and the survey is not whole.
 AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop = {});
 
 // The number of samples in a radian along each axis of a grid.

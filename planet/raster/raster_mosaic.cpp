@@ -24,13 +24,6 @@ std::int64_t floorDivided(std::int64_t value, std::int64_t by) {
     return value / by - (value % by < 0 ? 1 : 0);
 }
 
-GridRect sharedBy(const GridRect& a, const GridRect& b) {
-    const std::int64_t column = std::max(a.column, b.column);
-    const std::int64_t row = std::max(a.row, b.row);
-    return {column, row, std::min(a.column + a.columns, b.column + b.columns) - column,
-            std::min(a.row + a.rows, b.row + b.rows) - row};
-}
-
 GridRect spannedBy(const GridRect& a, const GridRect& b) {
     const std::int64_t column = std::min(a.column, b.column);
     const std::int64_t row = std::min(a.row, b.row);
@@ -139,7 +132,9 @@ RasterMosaic::RasterMosaic(const Raster& first, RasterPlacement placement, std::
     const double around = placement_.columnsAround();
     // A header that lies can put the poles where the rows do not fit in integers.
     const double farthest =
-        std::max({around, std::abs(placement_.northRow()), std::abs(placement_.southRow())});
+        placement_.isGeographic()
+            ? std::max({around, std::abs(placement_.northRow()), std::abs(placement_.southRow())})
+            : around;
     if (around >= 1 && farthest < 1e9 && std::abs(around - std::round(around)) < offGrid)
         period_ = std::llround(around);
 }
@@ -268,7 +263,7 @@ Result<void> RasterMosaic::readTiles(const GridRect& rect, std::span<float> out)
 Result<void> RasterMosaic::readSamples(const GridRect& rect, std::span<float> out) const {
     const double firstPole = std::min(placement_.northRow(), placement_.southRow());
     const double lastPole = std::max(placement_.northRow(), placement_.southRow());
-    const bool foldsBack = period_ > 0 && period_ % 2 == 0;
+    const bool foldsBack = period_ > 0 && period_ % 2 == 0 && placement_.isGeographic();
     const std::int64_t end = rect.row + rect.rows;
     for (std::int64_t row = rect.row; row < end;) {
         const double pole = static_cast<double>(row) < firstPole ? firstPole : lastPole;

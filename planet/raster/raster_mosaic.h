@@ -2,6 +2,7 @@
 // heights do not depend on where the tiles meet. Internal to the library.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <compare>
 #include <cstddef>
@@ -25,6 +26,14 @@ struct GridRect {
     std::int64_t columns = 0;
     std::int64_t rows = 0;
 };
+
+// Returns what two rectangles share; its sides are 0 or negative if they share nothing.
+inline GridRect sharedBy(const GridRect& a, const GridRect& b) {
+    const std::int64_t column = std::max(a.column, b.column);
+    const std::int64_t row = std::max(a.row, b.row);
+    return {column, row, std::min(a.column + a.columns, b.column + b.columns) - column,
+            std::min(a.row + a.rows, b.row + b.rows) - row};
+}
 
 // The resolution at which a mosaic is read: a sample is the mean of 2^columnsLog2 x 2^rowsLog2 samples. Sample
 // i of a halved axis covers samples 2 i and 2 i + 1.

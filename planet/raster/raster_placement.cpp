@@ -65,6 +65,27 @@ double unitsAround(const std::string& crs) {
     return known && unitRad > 0 ? 2 * std::numbers::pi / unitRad : 0;
 }
 
+// Returns the units of easting in a full turn if a projection is cylindrical: its easting grows evenly with longitude and
+// its northing depends only on latitude. Otherwise returns 0.
+double eastingAround(PJ* forward) {
+    constexpr double spanDeg = 0.5;
+    constexpr double most = 1e-9;  // of the change, by which rounding may differ
+    double perDegree = 0;
+    for (const double latitude : {-60.0, 0.25, 40.0}) {
+        for (const double longitude : {-97.0, 0.5, 151.0}) {
+            const PJ_COORD here = proj_trans(forward, PJ_FWD, proj_coord(longitude, latitude, 0, HUGE_VAL));
+            const PJ_COORD east =
+                proj_trans(forward, PJ_FWD, proj_coord(longitude + spanDeg, latitude, 0, HUGE_VAL));
+            const double change = (east.xy.x - here.xy.x) / spanDeg;
+            if (perDegree == 0) perDegree = change;
+            const bool isEven = std::abs(change - perDegree) <= most * std::abs(perDegree) &&
+                                std::abs(east.xy.y - here.xy.y) <= most * std::abs(perDegree);
+            if (!isEven) return 0;  // also for a place that the projection does not reach
+        }
+    }
+    return 360 * std::abs(perDegree);
+}
+
 double withinTurn(double longitudeRad) {
     return std::remainder(longitudeRad, 2 * std::numbers::pi);
 }
@@ -114,7 +135,8 @@ Result<RasterPlacement> RasterPlacement::make(const std::string& file, const Ras
                         file));
     }
     const double around = unitsAround(grid.crs);
-    const bool alongMeridians = around > 0 && grid.x[2] == 0 && grid.y[1] == 0;
+    const bool isStraight = grid.x[2] == 0 && grid.y[1] == 0;
+    const bool alongMeridians = around > 0 && isStraight;
     bool isDegrees = around > 0 && std::abs(around - 360) < sameDeg;
     for (const double longitude : {-97.0, 0.5, 151.0}) {
         const PJ_COORD out = proj_trans(transformation->forward.get(), PJ_FWD,
@@ -127,6 +149,8 @@ Result<RasterPlacement> RasterPlacement::make(const std::string& file, const Ras
         const double pole = around / 4;
         placement.northRow_ = (pole - grid.y[0]) / grid.y[2];
         placement.southRow_ = (-pole - grid.y[0]) / grid.y[2];
+    } else if (around == 0 && isStraight) {
+        placement.columnsAround_ = eastingAround(transformation->forward.get()) / std::abs(grid.x[1]);
     }
     if (isDegrees) return placement;
     placement.transformations_ = std::make_shared<Transformations>(grid.crs);

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,12 +38,18 @@ public:
     void toPlanet(std::span<const double> column, std::span<const double> row, std::span<double> longitudeRad,
                   std::span<double> latitudeRad) const;
 
-    // The number of columns once around the planet, if columns follow the meridians; otherwise 0.
+    // Returns whether places go through PROJ, which takes long; otherwise the grid is one of degrees.
+    bool isProjected() const { return transformations_ != nullptr; }
+
+    // The number of columns once around the planet, if columns follow the meridians at equal distances, as in a grid of
+    // degrees or a cylindrical projection such as Mercator; otherwise 0.
     double columnsAround() const { return columnsAround_; }
-    // The row of the north pole and of the south pole, if columns follow the meridians.
+    // Returns whether rows follow the parallels at equal distances, as in a grid of degrees, and columns the meridians.
+    bool isGeographic() const { return columnsAround_ > 0 && std::isfinite(northRow_); }
+    // The row of the north pole and of the south pole of a geographic grid; infinite on others.
     double northRow() const { return northRow_; }
     double southRow() const { return southRow_; }
-    // The number of rows in a radian of latitude, if columns follow the meridians.
+    // The number of rows in a radian of latitude of a geographic grid.
     double rowsPerRad() const;
 
 private:
@@ -53,8 +61,8 @@ private:
     double perArea_ = 0;                                // 1 over the determinant of the grid's steps
     std::shared_ptr<Transformations> transformations_;  // null: longitude and latitude in degrees
     double columnsAround_ = 0;
-    double northRow_ = 0;
-    double southRow_ = 0;
+    double northRow_ = -std::numeric_limits<double>::infinity();
+    double southRow_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace planet

@@ -81,7 +81,7 @@ RimDistance::RimDistance(const RasterArea& area, double reachRad, Rims rims)
       cache_(std::make_shared<HeightBlockCache>(rimCacheBytes)) {
     const RasterPlacement& placement = area.mosaic.placement();
     SampleDensity density{placement.columnsAround() / (2 * std::numbers::pi), placement.rowsPerRad()};
-    if (placement.columnsAround() <= 0) density = densitiesAt(placement, {area.centre})[0];
+    if (!placement.isGeographic()) density = densitiesAt(placement, {area.centre})[0];
     const double cellRad = reachRad / cellsPerReach;
     cell_ = {halvings(cellRad * density.columnsPerRad), halvings(cellRad * density.rowsPerRad)};
     columnRad_ = std::ldexp(1 / density.columnsPerRad, cell_.columnsLog2);
@@ -91,7 +91,7 @@ RimDistance::RimDistance(const RasterArea& area, double reachRad, Rims rims)
 // Returns the width of the cells of a row of cells.
 double RimDistance::columnRad(double row) const {
     const RasterPlacement& placement = area_->mosaic.placement();
-    if (placement.columnsAround() <= 0) return columnRad_;
+    if (!placement.isGeographic()) return columnRad_;
     const double sampleRow = std::ldexp(row + 0.5, cell_.rowsLog2) - 0.5;
     const double fromPole =
         (sampleRow - placement.northRow()) / (placement.southRow() - placement.northRow());

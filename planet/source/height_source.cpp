@@ -14,6 +14,7 @@
 #include "planet/raster/gdal_formats.h"
 #include "planet/raster/gdal_raster.h"
 #include "planet/raster/image_placement.h"
+#include "planet/raster/placed_image.h"
 #include "planet/source/height_quanta.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/source_parts.h"
@@ -76,18 +77,31 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
     return result;
 }
 
-// Opens an image: one of the whole planet by OpenImageIO, any other that has a position on the planet by GDAL.
+// Opens an image: one of the whole planet by OpenImageIO, any other that has a position on the planet by GDAL, which
+// alone knows masks and alpha.
 Result<HeightSource> openImage(const std::filesystem::path& path, const HeightSourceSettings& settings) {
+    if (isRawImage(path)) {
+        return badInput(
+            fmt::format("{}: is a headerless file without a position; expected six cube faces, or a layer of "
+                        "a world file "
+                        "with place = {{lat = 46.5, lon = 8.0, width_m = 8192}}",
+                        path.string()));
+    }
     const Result<std::shared_ptr<ImageFile>> image = ImageFile::open(path, settings.colourChannel);
     const auto placement = image.and_then([&](const std::shared_ptr<ImageFile>& file) {
         const ImageLayout& layout = file->layout();
         return placementOf(path.string(), layout.width, layout.height, layout.geoTags);
     });
-    if (placement || !isGdalRaster(path)) return openEquirectangularSource(path, settings);
+    if (placement) {
+        const auto raster = openGeoreferenced(path, settings);
+        if (!raster || !raster->hidesSamples()) return openEquirectangularSource(path, settings);
+    } else if (!isGdalRaster(path)) {
+        return openEquirectangularSource(path, settings);
+    }
     Result<HeightSource> placed = openRasterSource(path, {path}, settings);
     // Without a position, what matters is what the image lacks to be one of the whole planet.
     const bool hasPosition = image ? (*image)->layout().geoTags.placement.has_value()
-                                   : !isImageExtension(path.extension().string());
+                                   : !isImageExtension(path.extension().string()) || isPlacedBand(path);
     return placed || hasPosition ? placed : tl::unexpected(placement.error());
 }
 
@@ -101,8 +115,14 @@ bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourCh
     return placementOf(path.string(), layout.width, layout.height, layout.geoTags).has_value();
 }
 
+std::shared_ptr<const GdalRaster> openGeoreferenced(const std::filesystem::path& path,
+                                                    const HeightSourceSettings& settings) {
+    if (!isGdalRaster(path)) return nullptr;
+    return GdalRaster::open(path, settings).value_or(nullptr);
+}
+
 bool isGeoreferenced(const std::filesystem::path& file) {
-    return isGdalRaster(file) && GdalRaster::open(file, {}).has_value();
+    return openGeoreferenced(file, {}) != nullptr;
 }
 
 namespace {
@@ -157,6 +177,8 @@ Result<HeightSource> openHeightSource(const std::filesystem::path& path,
     Result<HeightSource> source = openAnySource(path, settings);
     // Rasters, worlds and detail have parts of their own; anything else is one.
     if (source && !source->parts) source->parts = wholeSource(path, settings, source->densities);
+    if (source && source->memoryBytes == 0)
+        source->memoryBytes = cachedBytes(source->sampleCount, settings.cacheBytes);
     if (source && !source->finestQuantumM && source->sampleCount > 0) {
         const double spacingRad = std::numbers::pi / 2 / (source->naturalFaceSize - 1);
         source->finestQuantumM = [stepM = source->stepM, spacingRad](double radiusM) {

@@ -225,6 +225,7 @@ Result<HeightSource> amplified(HeightSource source, const DetailTerrain& detail)
     result.maxM = source.maxM + detail.limitM;
     result.sampleCount = source.sampleCount;
     result.missingCount = source.missingCount;
+    result.memoryBytes = source.memoryBytes;
     result.reads = source.reads;
     if (source.parts) {
         const std::uint64_t hash = Fingerprint()

@@ -501,7 +501,8 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
         const auto face = static_cast<std::size_t>(i);
         const RasterMemory memory{cache, face, settings.cacheBytes / faceCount};
         TRY_ASSIGN(set.faces[face],
-                   raw ? openRawRaster(files.paths[face], format.size, conversion, memory, settings.fileCalls)
+                   raw ? openRawRaster(files.paths[face], format.size, format.size, conversion, memory,
+                                       settings.fileCalls)
                        : openImageRaster(images[face], conversion, memory, settings.fileCalls));
     }
     return describeFaces(files, format, conversion, settings.stop, std::move(set), edges);

@@ -1,7 +1,9 @@
 // The kinds of height source behind openHeightSource, and their shared parts. Internal to the library.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,6 +20,8 @@
 #include "planet/sphere/cube_sphere.h"
 
 namespace planet {
+
+class GdalRaster;
 
 // Opens an image, which must show the whole planet (image_placement.h).
 Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path,
@@ -50,6 +54,10 @@ std::string skippedText(std::size_t count);
 // HeightSourceSettings.
 bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourChannel);
 
+// Opens a file as a georeferenced raster; null if it is none.
+std::shared_ptr<const GdalRaster> openGeoreferenced(const std::filesystem::path& path,
+                                                    const HeightSourceSettings& settings);
+
 // Opens a world file (world_file.h).
 Result<HeightSource> openWorld(const std::filesystem::path& path, const HeightSourceSettings& settings);
 
@@ -78,6 +86,11 @@ std::optional<FaceFiles> findFaceFiles(const std::filesystem::path& path);
 enum class FaceEdges : std::uint8_t { MustAgree, MayDiffer };
 Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSettings& settings,
                                     FaceEdges edges);
+
+// Returns the memory that a cache of samples fills.
+inline std::uint64_t cachedBytes(std::uint64_t samples, std::size_t mostBytes) {
+    return std::min<std::uint64_t>(samples * sizeof(float), mostBytes);
+}
 
 // Sets stepM, minM, maxM and missingCount.
 void describeHeights(HeightSource& source, const HeightConversion& conversion,

@@ -138,7 +138,16 @@ Result<std::vector<OpenRaster>> openRasters(
     return rasters;
 }
 
-// Joins and surveys rasters. Moves those that cannot be read to the broken ones.
+// Says of a raster with heights that none of them lies on the planet.
+Error liesNowhere(const Raster& raster) {
+    return {ErrorKind::BadInput,
+            fmt::format(
+                "{}: lies nowhere on the planet by its coordinates in {}; expected longitude and latitude "
+                "in [-180, 180] and [-90, 90] degrees",
+                raster.path().string(), raster.layout().crsName)};
+}
+
+// Joins and surveys rasters. Moves those that cannot be read or lie nowhere to the broken ones.
 Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters,
                                          const std::shared_ptr<MosaicCache>& cache,
                                          const std::stop_token& stop, std::vector<BrokenFile>& broken) {
@@ -149,12 +158,18 @@ Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters,
     for (RasterMosaic& mosaic : mosaics) {
         AreaSurvey survey = surveyArea(std::move(mosaic), stop);
         if (stop.stop_requested()) return cancelled();
-        for (const auto& [tile, error] : survey.broken) {
-            const auto found =
-                std::ranges::find(rasters, survey.area.mosaic.tiles()[tile].raster, &OpenRaster::raster);
-            broken.push_back({found->number, error});
+        const std::vector<RasterMosaic::Tile>& tiles = survey.area.mosaic.tiles();
+        const auto remove = [&](std::size_t tile, Error error) {
+            const auto found = std::ranges::find(rasters, tiles[tile].raster, &OpenRaster::raster);
+            broken.push_back({found->number, std::move(error)});
             rasters.erase(found);
+        };
+        const bool hasHeights = survey.area.statistics.missingCount < survey.area.sampleCount;
+        if (survey.broken.empty() && hasHeights && survey.area.covered.indices.empty()) {
+            for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+                remove(tile, liesNowhere(*tiles[tile].raster));
         }
+        for (auto& [tile, error] : survey.broken) remove(tile, std::move(error));
         areas.push_back(std::move(survey.area));
     }
     return areas;

@@ -57,6 +57,7 @@ struct HeightSource {
     double maxM = 0;
     std::uint64_t sampleCount = 0;
     std::uint64_t missingCount = 0;  // filled samples without data
+    std::uint64_t memoryBytes = 0;   // that its caches hold at most
     // Only for colours: the number of the cube's edges along which six faces differ visibly, and a notice
     // about it. 0 and empty if the faces agree.
     int seamEdges = 0;

@@ -89,8 +89,8 @@ PiecePlaces placesOf(const Geographic& place) {
 }
 
 Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onGrid) {
-    const std::vector<TileSample> tiles =
-        tilesAt(area.mosaic, std::llround(onGrid.column[0]), std::llround(onGrid.row[0]));
+    const GridCell nearest = nearestSample(area.mosaic, onGrid.column[0], onGrid.row[0]);
+    const std::vector<TileSample> tiles = tilesAt(area.mosaic, nearest.column, nearest.row);
     SourceReading reading;
     reading.isVoid = true;
     // The last tile with a height counts where tiles overlap, as in the mosaic.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
 
@@ -24,9 +25,12 @@ constexpr double tapsReach = 10;
 constexpr double steadyLatitudeRad = 75 * std::numbers::pi / 180;
 constexpr double featherReach = 3;
 
+// Is raised when the same rasters get other heights, so that a bake copies nothing from one of before.
+constexpr std::int32_t samplingRevision = 2;
+
 SampleDensities densitiesOf(const RasterArea& area) {
     const RasterPlacement& placement = area.mosaic.placement();
-    if (placement.columnsAround() > 0)
+    if (placement.isGeographic())
         return {placement.rowsPerRad(), placement.columnsAround() / (2 * std::numbers::pi)};
     return {mostUneven * area.samplesPerRad, 0};
 }
@@ -42,7 +46,7 @@ bool reachIsBounded(const RasterArea& area, const RasterReach& reach) {
     if (reach.fillsVoids) return false;
     if (reach.featherRad <= 0) return true;
     // On other grids, distances are measured with the spacing at the middle of the area, wherever that is.
-    if (area.mosaic.placement().columnsAround() <= 0) return false;
+    if (!area.mosaic.placement().isGeographic()) return false;
     const double middleRad = std::asin(std::clamp(std::abs(area.centre.z), 0.0, 1.0));
     return middleRad + area.radiusRad + reach.featherRad < steadyLatitudeRad;
 }
@@ -51,7 +55,7 @@ bool reachIsBounded(const RasterArea& area, const RasterReach& reach) {
 std::uint64_t hashOfGrid(const RasterArea& area, std::uint64_t settings) {
     const RasterLayout& layout = area.mosaic.layout();
     Fingerprint hash;
-    hash.add(settings).add(layout.crs);
+    hash.add(settings).add(samplingRevision).add(layout.crs);
     for (const double value : layout.x) hash.add(value);
     for (const double value : layout.y) hash.add(value);
     return hash.add(area.samplesPerRad).add(area.stepM).add(std::int32_t{area.faceCells}).hash();
@@ -74,7 +78,7 @@ Result<void> appendParts(const RasterArea& area, std::uint64_t settings, const R
     const bool hasRoom = parts.size() + tiles.size() < mostSourceParts / 2;
     if (tiles.size() < 2 || !hasRoom || !reachIsBounded(area, reach)) {
         Fingerprint hash;
-        hash.add(settings);
+        hash.add(settings).add(samplingRevision);
         for (const std::uint64_t ofTile : hashes) hash.add(ofTile);
         // A place counts if the sample nearest to it lies on a tile, so the cap of the samples needs a margin of a
         // sample at most. Feathers and the filter reach inwards.

@@ -9,11 +9,13 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "planet/base/try.h"
 #include "planet/source/height_filter.h"
 #include "planet/source/height_geographic.h"
+#include "planet/source/place_lattice.h"
 #include "planet/source/sample_tiles.h"
 
 namespace planet {
@@ -21,7 +23,10 @@ namespace planet {
 namespace {
 
 constexpr std::int64_t mostRegionSamples = 3 << 20;  // samples in memory at once: 12 MB
-constexpr double reducedAt = 4;                      // a kernel stretched by more is applied to means
+// How far a projection may bend over two cells of its lattice to be interpolated there.
+constexpr double mostPlaceBend = 0.1;     // samples
+constexpr double mostDensityBend = 0.01;  // of the samples in a radian
+constexpr double reducedAt = 4;           // a kernel stretched by more is applied to means
 
 // A place on the grid of a mosaic, at a reduced resolution.
 struct Position {
@@ -30,6 +35,8 @@ struct Position {
     double row = 0;
     float columnStretch = 1;
     float rowStretch = 1;
+    std::int64_t nearestColumn = 0;
+    std::int64_t nearestRow = 0;
 
     std::int64_t firstColumn() const { return firstTap(column, columnStretch); }
     std::int64_t firstRow() const { return firstTap(row, rowStretch); }
@@ -86,14 +93,13 @@ void keepPlacesOnTiles(const RasterMosaic& mosaic, PlacesOnGrid& places) {
     if (mosaic.tiles().size() < 2 || places.index.empty()) return;
     const auto [left, right] = std::ranges::minmax(places.column);
     const auto [top, bottom] = std::ranges::minmax(places.row);
-    const std::int64_t firstColumn = std::llround(left);
-    const std::int64_t firstRow = std::llround(top);
-    const std::vector<GridRect> tiles = mosaic.tilesIn(
-        {firstColumn, firstRow, std::llround(right) - firstColumn + 1, std::llround(bottom) - firstRow + 1});
+    const GridCell first = nearestSample(mosaic, left, top);
+    const GridCell last = nearestSample(mosaic, right, bottom);
+    const std::vector<GridRect> tiles =
+        mosaic.tilesIn({first.column, first.row, last.column - first.column + 1, last.row - first.row + 1});
     std::size_t kept = 0;
     for (std::size_t i = 0; i < places.index.size(); ++i) {
-        const std::int64_t column = std::llround(places.column[i]);
-        const std::int64_t row = std::llround(places.row[i]);
+        const auto [column, row] = nearestSample(mosaic, places.column[i], places.row[i]);
         const auto holds = [&](const GridRect& tile) {
             return column >= tile.column && column < tile.column + tile.columns && row >= tile.row &&
                    row < tile.row + tile.rows;
@@ -109,20 +115,39 @@ void keepPlacesOnTiles(const RasterMosaic& mosaic, PlacesOnGrid& places) {
     places.row.resize(kept);
 }
 
-// Returns how many samples lie in a radian along each axis at each place; nothing if the grid of the planet is finer
-// than the mosaic everywhere.
+// Returns the cells along a face of the lattice on which the places of a piece are converted; 0: each is converted.
+int latticeCellsOf(const RasterArea& area, const PiecePlaces& places) {
+    if (!places.tile || !area.mosaic.placement().isProjected()) return 0;
+    return latticeCellsFor(filterCellsOf(*places.tile), area.samplesPerRad);
+}
+
+// Returns how many samples lie in a radian along each axis at each wanted place; nothing if the grid of the planet is
+// finer than the mosaic everywhere.
 std::vector<SampleDensity> densitiesFor(const RasterArea& area, const PiecePlaces& places,
                                         std::span<const std::size_t> wanted) {
     if (places.spacingRad * area.samplesPerRad * mostUneven <= 1) return {};
     const RasterPlacement& placement = area.mosaic.placement();
-    const double around = placement.columnsAround();
-    if (around <= 0) {
-        std::vector<glm::dvec3> directions;
-        for (const std::size_t i : wanted)
-            directions.push_back(directionFromGeographic({places.latitudeRad[i], places.longitudeRad[i]}));
-        return densitiesAt(placement, directions);
+    if (!placement.isGeographic()) {
+        const auto exact = [&](std::span<const double> longitudes, std::span<const double> latitudes,
+                               std::span<double> columns, std::span<double> rows) {
+            std::vector<glm::dvec3> directions;
+            for (std::size_t i = 0; i < longitudes.size(); ++i)
+                directions.push_back(directionFromGeographic({latitudes[i], longitudes[i]}));
+            const std::vector<SampleDensity> found = densitiesAt(placement, directions);
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                columns[i] = found[i].columnsPerRad;
+                rows[i] = found[i].rowsPerRad;
+            }
+        };
+        std::vector<double> columns(places.longitudeRad.size());
+        std::vector<double> rows(columns.size());
+        overPiece(places, wanted, latticeCellsOf(area, places), mostDensityBend * area.samplesPerRad, exact,
+                  columns, rows);
+        std::vector<SampleDensity> densities;
+        for (const std::size_t i : wanted) densities.push_back({columns[i], rows[i]});
+        return densities;
     }
-    const double perRad = around / (2 * std::numbers::pi);
+    const double perRad = placement.columnsAround() / (2 * std::numbers::pi);
     std::vector<SampleDensity> densities;
     for (const std::size_t i : wanted)
         densities.push_back({perRad / std::max(places.ring[i], 1e-12), placement.rowsPerRad()});
@@ -151,11 +176,12 @@ Positions positionsOf(const RasterArea& area, const PiecePlaces& places, const P
         // Near a pole the kernel covers the whole turn, but no sample twice.
         if (period >= 4) columnStretch = std::min(columnStretch, static_cast<double>(period) / 4);
         const bool east = period > 0 && column > middle;
+        const GridCell nearest = nearestSample(area.mosaic, column, row);
         const int columnsLog2 = reduce(column, columnStretch);
         const int rowsLog2 = reduce(row, rowStretch);
-        positions[{{columnsLog2, rowsLog2}, east}].push_back({onGrid.index[i], column, row,
-                                                              static_cast<float>(columnStretch),
-                                                              static_cast<float>(rowStretch)});
+        positions[{{columnsLog2, rowsLog2}, east}].push_back(
+            {onGrid.index[i], column, row, static_cast<float>(columnStretch), static_cast<float>(rowStretch),
+             nearest.column >> columnsLog2, nearest.row >> rowsLog2});
     }
     return positions;
 }
@@ -196,19 +222,39 @@ public:
                       position.columnStretch, columnWeights_);
         kernelWeights(static_cast<float>(position.row - static_cast<double>(row)), position.rowStretch,
                       rowWeights_);
+        const auto asRead = [](const float* from, std::size_t, std::size_t i) {
+            return loadFloat4(from + i);
+        };
+        const float height = weighted(samples, column, row, asRead);
+        if (!std::isnan(height)) return height;
+        // The groups of four taps reach beyond the kernel. A sample without a height out there must not change the sum.
+        const auto withinKernel = [&](const float* from, std::size_t j, std::size_t i) {
+            Float4 heights = loadFloat4(from + i);
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (rowWeights_[j] == 0 || columnWeights_[i + k] == 0) heights[k] = 0;
+            }
+            return heights;
+        };
+        const float heightWithin = weighted(samples, column, row, withinKernel);
+        return std::isnan(heightWithin) ? filteredWithout(samples, column, row) : heightWithin;
+    }
+
+private:
+    // Sums the samples with their weights. load(from, j, i) returns four samples of row j from column i on.
+    template <class Load>
+    float weighted(const RegionSamples& samples, std::int64_t column, std::int64_t row,
+                   const Load& load) const {
         Float4 sum{};
         for (std::size_t j = 0; j < rowWeights_.size(); ++j) {
             const float* const from = samples.at(column, row + static_cast<std::int64_t>(j));
             Float4 rowSum{};
             for (std::size_t i = 0; i < columnWeights_.size(); i += 4)
-                rowSum += loadFloat4(columnWeights_.data() + i) * loadFloat4(from + i);
+                rowSum += loadFloat4(columnWeights_.data() + i) * load(from, j, i);
             sum += rowWeights_[j] * rowSum;
         }
-        const float height = sumOfLanes(sum);
-        return std::isnan(height) ? filteredWithout(samples, column, row) : height;
+        return sumOfLanes(sum);
     }
 
-private:
     // Leaves out samples without a height, and the negative parts of the kernel, without which the sum of the
     // remaining weights could be near 0.
     float filteredWithout(const RegionSamples& samples, std::int64_t column, std::int64_t row) const {
@@ -243,7 +289,7 @@ Result<void> fillPositions(const RasterMosaic& mosaic, const GridReduction& redu
     TRY(mosaic.read(reduction, samples.rect, samples.heights));
     PositionFilter filter;
     for (const Position& position : positions) {
-        const float nearest = *samples.at(std::llround(position.column), std::llround(position.row));
+        const float nearest = *samples.at(position.nearestColumn, position.nearestRow);
         if (!std::isnan(nearest)) heights[position.index] = filter.filtered(samples, position);
     }
     return {};
@@ -263,6 +309,7 @@ PiecePlaces placesOf(const SampleTile& piece) {
                        std::span(places.ring).subspan(first, columns)});
     }
     places.spacingRad = std::numbers::pi / 2 / filterCellsOf(piece);
+    places.tile = piece;
     places.centre = directionOf(piece.face, piece.faceCells, piece.firstColumn + piece.columns / 2,
                                 piece.firstRow + piece.rows / 2);
     // A cell of a face is at most 2 / cells radians long, and half the diagonal of a piece has the middle.
@@ -270,12 +317,36 @@ PiecePlaces placesOf(const SampleTile& piece) {
     return places;
 }
 
+GridCell nearestSample(const RasterMosaic& mosaic, double column, double row) {
+    const GridRect& bounds = mosaic.bounds();
+    return {std::clamp<std::int64_t>(std::llround(column), bounds.column, bounds.column + bounds.columns - 1),
+            std::clamp<std::int64_t>(std::llround(row), bounds.row, bounds.row + bounds.rows - 1)};
+}
+
+namespace {
+
+void convertPlaces(const RasterArea& area, const PiecePlaces& places, std::span<double> column,
+                   std::span<double> row) {
+    const RasterPlacement& placement = area.mosaic.placement();
+    const int latticeCells = latticeCellsOf(area, places);
+    if (latticeCells == 0) return placement.toGrid(places.longitudeRad, places.latitudeRad, column, row);
+    std::vector<std::size_t> wanted(places.longitudeRad.size());
+    std::iota(wanted.begin(), wanted.end(), std::size_t{0});
+    const auto exact = [&](std::span<const double> longitudes, std::span<const double> latitudes,
+                           std::span<double> columns, std::span<double> rows) {
+        placement.toGrid(longitudes, latitudes, columns, rows);
+    };
+    overPiece(places, wanted, latticeCells, mostPlaceBend, exact, column, row);
+}
+
+}  // namespace
+
 PlacesOnGrid placesOnGrid(const RasterArea& area, const PiecePlaces& places) {
     const double apart = std::acos(std::clamp(glm::dot(area.centre, places.centre), -1.0, 1.0));
     if (apart > area.radiusRad + places.radiusRad) return {};
     const std::size_t count = places.longitudeRad.size();
     PlacesOnGrid all{std::vector<std::size_t>(count), std::vector<double>(count), std::vector<double>(count)};
-    area.mosaic.placement().toGrid(places.longitudeRad, places.latitudeRad, all.column, all.row);
+    convertPlaces(area, places, all.column, all.row);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const double column = inTurn(area.mosaic, all.column[i]);

@@ -6,26 +6,18 @@
 // no weight in the filter: the rest, without the kernel's negative parts, is made to sum to 1.
 #pragma once
 
-#include <glm/vec3.hpp>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "planet/base/result.h"
 #include "planet/raster/raster_area.h"
 #include "planet/source/height_source_types.h"
+#include "planet/source/piece_places.h"
 
 namespace planet {
 
-// The places of the samples of a piece, row-major.
-struct PiecePlaces {
-    std::vector<double> longitudeRad;
-    std::vector<double> latitudeRad;
-    std::vector<double> ring;  // cos(latitude)
-    double spacingRad = 0;     // of the grid that the filter is made for: (pi / 2) / cells
-    // A cap of the unit sphere that holds all places.
-    glm::dvec3 centre{};
-    double radiusRad = 0;
-};
+// Returns the places of the samples of a piece.
 PiecePlaces placesOf(const SampleTile& piece);
 
 // The places of a piece that lie on a tile of a mosaic, and where on its grid. Columns are those of the turn
@@ -36,6 +28,14 @@ struct PlacesOnGrid {
     std::vector<double> row;
 };
 PlacesOnGrid placesOnGrid(const RasterArea& area, const PiecePlaces& places);
+
+// A sample of a mosaic's grid.
+struct GridCell {
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+};
+// Returns the sample nearest to a place on a mosaic. A place on its outer edge belongs to the outermost sample.
+GridCell nearestSample(const RasterMosaic& mosaic, double column, double row);
 
 // Fills in the heights of a piece that are still NaN, in metres, where the area covers their places.
 Result<void> fillFrom(const RasterArea& area, const PiecePlaces& places, const PlacesOnGrid& onGrid,

@@ -126,6 +126,22 @@ Result<void> readPlace(const std::filesystem::path& file, const toml::node& node
     return {};
 }
 
+// Reads the samples per side, or a list of the samples in a row and the rows.
+Result<void> readRawSize(const std::filesystem::path& file, const toml::node& node, WorldLayer& layer) {
+    const toml::array* const sides = node.as_array();
+    if (sides && sides->size() != 2) {
+        return badInput(fmt::format("{}: raw_size lists {} numbers; expected [columns, rows]",
+                                    placeOf(file, node), sides->size()));
+    }
+    TRY_ASSIGN(const auto columns,
+               readInteger(file, "raw_size", sides ? *sides->get(0) : node, {2, 1 << 22, "samples"}));
+    layer.rawSize = static_cast<int>(columns);
+    if (!sides) return {};
+    TRY_ASSIGN(const auto rows, readInteger(file, "raw_size", *sides->get(1), {1, 1 << 22, "rows"}));
+    layer.rawRows = static_cast<int>(rows);
+    return {};
+}
+
 constexpr std::array layerKeys = {
     LayerKey{"name",
              [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
@@ -169,12 +185,7 @@ constexpr std::array layerKeys = {
                  return {};
              }},
     LayerKey{"place", readPlace},
-    LayerKey{"raw_size",
-             [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
-                 TRY_ASSIGN(const auto size, readInteger(file, "raw_size", node, {2, 1 << 22, "samples"}));
-                 layer.rawSize = static_cast<int>(size);
-                 return {};
-             }},
+    LayerKey{"raw_size", readRawSize},
     LayerKey{"raw_big_endian",
              [](const auto& file, const auto& node, WorldLayer& layer) -> Result<void> {
                  TRY_ASSIGN(layer.rawBigEndian, readBool(file, "raw_big_endian", node));
@@ -397,7 +408,11 @@ toml::table tableOf(const WorldLayer& layer, const std::filesystem::path& folder
     if (layer.hasOffset || layer.offsetM != plain.offsetM) table.insert("offset_m", layer.offsetM);
     if (layer.datum) table.insert("datum", nameOf(*layer.datum));
     if (layer.place) insertPlace(*layer.place, table);
-    if (layer.rawSize) table.insert("raw_size", *layer.rawSize);
+    if (layer.rawRows) {
+        table.insert("raw_size", toml::array{*layer.rawSize, *layer.rawRows});
+    } else if (layer.rawSize) {
+        table.insert("raw_size", *layer.rawSize);
+    }
     if (layer.rawBigEndian) table.insert("raw_big_endian", true);
     if (layer.rawSigned) table.insert("raw_signed", true);
     return table;

@@ -47,7 +47,8 @@ struct WorldLayer {
     // The datum of the files' heights. It is set only if the world file sets the planet's datum.
     std::optional<VerticalDatum> datum;
     std::optional<ImagePlace> place;  // of the one file, which has no position of its own
-    std::optional<int> rawSize;       // only with place: of a raw file, samples per side
+    std::optional<int> rawSize;       // only with place: of a raw file, samples per side, or in a row
+    std::optional<int> rawRows;       // of rawSize samples; unset: rawSize
     bool rawBigEndian = false;
     bool rawSigned = false;
 };

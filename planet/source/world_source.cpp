@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/raster/gdal_raster.h"
 #include "planet/raster/rim_distance.h"
 #include "planet/source/height_quanta.h"
 #include "planet/source/height_source.h"
@@ -48,7 +49,20 @@ struct WorldPart {
     std::uint64_t settings = 0;       // a hash of everything but the content that its heights depend on
     std::variant<std::unique_ptr<RasterPart>, HeightSource> content;
     std::size_t number = 0;  // of the layer in the world file
+    std::filesystem::path world{};
 };
+
+// Says of an error while reading which layer it struck, and what to do.
+template <class T>
+T ofLayer(const WorldPart& part, T result) {
+    if (result || result.error().kind == ErrorKind::Cancelled) return result;
+    Error& error = result.error();
+    error.message += fmt::format(
+        " (layer \"{}\" of {}); expected the file as it was when it was opened: restore it, or switch the "
+        "layer off",
+        part.layer.name, part.world.string());
+    return result;
+}
 
 struct World {
     std::vector<WorldPart> parts;
@@ -142,12 +156,12 @@ Result<void> joinRasters(const WorldPart& part, const RasterPart& rasters, const
     const PlacesOnGrid onGrid = placesOnGrid(rasters.area, places);
     if (onGrid.index.empty()) return {};
     std::vector<float> heights(world.heightsM.size(), std::numeric_limits<float>::quiet_NaN());
-    TRY(fillFrom(rasters.area, places, onGrid, heights));
-    TRY(treatVoids(part.layer, rasters.area, onGrid, heights));
+    TRY(ofLayer(part, fillFrom(rasters.area, places, onGrid, heights)));
+    TRY(ofLayer(part, treatVoids(part.layer, rasters.area, onGrid, heights)));
     std::vector<double> weights(rasters.rim ? heights.size() : 0);
     if (rasters.rim) {
         std::vector<double> distances(onGrid.index.size());
-        TRY(rasters.rim->at(onGrid.column, onGrid.row, distances));
+        TRY(ofLayer(part, rasters.rim->at(onGrid.column, onGrid.row, distances)));
         for (std::size_t k = 0; k < onGrid.index.size(); ++k)
             weights[onGrid.index[k]] = smoothly(0, rasters.rim->reachRad(), distances[k]);
     }
@@ -162,9 +176,9 @@ Result<void> joinSource(const WorldPart& part, const HeightSource& source, const
     std::vector<float> heights(world.heightsM.size());
     std::vector<float> needed(world.neededM.size());
     if (needed.empty()) {
-        TRY(source.sample(piece, heights));
+        TRY(ofLayer(part, source.sample(piece, heights)));
     } else {
-        TRY(sampleWithQuanta(source, piece, world.radiusM, heights, needed));
+        TRY(ofLayer(part, sampleWithQuanta(source, piece, world.radiusM, heights, needed)));
     }
     const auto scale = static_cast<float>(std::abs(part.layer.scale));
     return joinHeights(
@@ -320,6 +334,7 @@ std::uint64_t hashOf(const WorldLayer& layer, const std::optional<VerticalDatum>
         const ImagePlace& place = *layer.place;
         hash.add(place.latitudeDeg).add(place.longitudeDeg).add(place.widthM).add(place.headingDeg);
         hash.add(std::int32_t{layer.rawSize.value_or(0)});
+        if (layer.rawRows) hash.add(std::int32_t{*layer.rawRows});
         hash.add(static_cast<std::uint8_t>(layer.rawBigEndian))
             .add(static_cast<std::uint8_t>(layer.rawSigned));
     }
@@ -365,8 +380,11 @@ Extent extentOf(const HeightSource& source) {
 // Makes a world from its layers, and keeps track of its extent.
 class WorldBuilder {
 public:
-    WorldBuilder(const WorldFile& file, std::size_t layers, const HeightSourceSettings& settings)
-        : settings_(settings),
+    WorldBuilder(std::filesystem::path path, const WorldFile& file, std::size_t layers,
+                 const HeightSourceSettings& settings)
+        : path_(std::move(path)),
+          settings_(settings),
+          cacheBytes_(settings.cacheBytes),
           cache_(std::make_shared<MosaicCache>(settings.cacheBytes)),
           radiusM_(file.radiusM),
           fillM_(file.fillM),
@@ -389,6 +407,9 @@ public:
         return {};
     }
 
+    // Returns whether any layer has a height.
+    bool hasHeights() const { return hasHeights_; }
+
     HeightSource finish(std::string description) {
         HeightSource source;
         source.description = std::move(description) + skippedText(skipped_.size());
@@ -398,6 +419,7 @@ public:
         source.maxM = world_->maxM;
         source.sampleCount = extent_.sampleCount;
         source.missingCount = extent_.missingCount;
+        source.memoryBytes = cachedBytes(rasterSamples_, cacheBytes_) + wholeBytes_;
         const std::shared_ptr<const World> world = std::move(world_);
         source.parts = [world](double filterSpacingRad) { return partsOf(*world, filterSpacingRad); };
         source.finestCells = [world](const ChunkId& square) { return finestCellsIn(*world, square); };
@@ -426,14 +448,50 @@ public:
 private:
     Result<void> addContent(const WorldLayer& layer) {
         if (!layer.detail.empty()) return addDetail(layer);
-        if (!layer.terrain.empty()) return addWhole(layer, layer.terrain);
+        if (!layer.terrain.empty()) {
+            TRY_ASSIGN(auto terrain, openHeightSource(layer.terrain, settings_));
+            addWhole(layer, std::move(terrain));
+            return {};
+        }
         TRY_ASSIGN(const auto files, filesOfLayer(layer));
         if (layer.place) return addPlaced(layer, files[0]);
         // An image of the whole planet or six faces; anything else is georeferenced.
         if (layer.files.size() == 1 && files == layer.files &&
             coversPlanet(files[0], settings_.colourChannel))
-            return addWhole(layer, files[0]);
+            return addImage(layer, files[0]);
         return addRasters(layer, files);
+    }
+
+    // Adds an image of the whole planet or six faces. With missing samples it is read as a raster, because only those
+    // show what lies under them; without any, it has no rim for a feather.
+    Result<void> addImage(const WorldLayer& layer, const std::filesystem::path& path) {
+        const std::shared_ptr<const GdalRaster> raster = openGeoreferenced(path, settings_);
+        if (raster && raster->hidesSamples()) return addRasters(layer, {path});
+        if (raster) TRY(checkDatum(layer, *raster));
+        TRY_ASSIGN(auto source, openHeightSource(path, settings_));
+        if (source.missingCount == 0) {
+            addWhole(layer, std::move(source));
+            return {};
+        }
+        if (raster) return addRasters(layer, {path});
+        return badInput(
+            fmt::format("{}: {} of its samples are missing, and it has no position; expected a georeferenced "
+                        "image, such as a GeoTIFF, so that what lies under it shows through",
+                        path.string(), source.missingCount));
+    }
+
+    // Refuses a file that says that its heights have another datum than its layer, unless offset_m says how much they
+    // differ.
+    static Result<void> checkDatum(const WorldLayer& layer, const Raster& raster) {
+        const RasterLayout& layout = raster.layout();
+        if (!layer.datum || layer.hasOffset || layout.verticalName.empty() || layout.datum == layer.datum)
+            return {};
+        const std::string expected =
+            layout.datum ? fmt::format("datum = \"{}\" in the layer, or ", nameOf(*layout.datum)) : "";
+        return badInput(fmt::format(
+            "{}: says that its heights are {}, but the layer's datum is {}; expected {}offset_m with "
+            "the difference",
+            raster.path().string(), layout.verticalName, nameOf(*layer.datum), expected));
     }
 
     // offset_m takes the place of the grids, whether or not they exist: the same world file gives the same heights
@@ -450,13 +508,23 @@ private:
     }
 
     void widen(const WorldLayer& layer, const Extent& part) {
-        double low = layer.offsetM + layer.scale * part.minM;
-        double high = layer.offsetM + layer.scale * part.maxM;
-        if (low > high) std::swap(low, high);
-        if (layer.voids == LayerVoids::Height) {
-            low = std::min(low, layer.offsetM + layer.scale * layer.voidM);
-            high = std::max(high, layer.offsetM + layer.scale * layer.voidM);
+        extent_.faceCells = std::max(extent_.faceCells, part.faceCells);
+        extent_.sampleCount += part.sampleCount;
+        extent_.missingCount += part.missingCount;
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        const auto include = [&](double heightM) {
+            const double convertedToM = layer.offsetM + layer.scale * heightM;
+            low = std::min(low, convertedToM);
+            high = std::max(high, convertedToM);
+        };
+        if (part.minM <= part.maxM) {
+            include(part.minM);
+            include(part.maxM);
         }
+        if (layer.voids == LayerVoids::Height) include(layer.voidM);
+        if (low > high) return;  // all samples are missing, and nothing takes their place
+        hasHeights_ = true;
         if (shift_) {
             low += shift_->minM();
             high += shift_->maxM();
@@ -465,27 +533,32 @@ private:
         if (layer.join != LayerJoin::Max)
             world_->minM = adds ? world_->minM + std::min(0.0, low) : std::min(world_->minM, low);
         world_->maxM = adds ? world_->maxM + std::max(0.0, high) : std::max(world_->maxM, high);
-        extent_.faceCells = std::max(extent_.faceCells, part.faceCells);
-        extent_.sampleCount += part.sampleCount;
-        extent_.missingCount += part.missingCount;
     }
 
-    Result<void> addWhole(const WorldLayer& layer, const std::filesystem::path& path) {
-        TRY_ASSIGN(auto source, openHeightSource(path, settings_));
+    void addWhole(const WorldLayer& layer, HeightSource source) {
         skipped_.insert(skipped_.end(), source.skipped.begin(), source.skipped.end());
-        // The first layer covers the planet, so the height without any does not count.
+        // The layer covers the planet, so the height without any does not count.
         if (world_->parts.empty() && layer.join == LayerJoin::Replace) {
             world_->minM = std::numeric_limits<double>::infinity();
             world_->maxM = -world_->minM;
         }
         widen(layer, extentOf(source));
+        wholeBytes_ += source.memoryBytes;
         layers_.push_back(source.layers ? source.layers->layers.back() : SourceLayer());
-        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(source), layers_.size() - 1});
-        return {};
+        addPart(layer, std::move(source));
+    }
+
+    // Adds a part of the layer that was described last.
+    void addPart(const WorldLayer& layer, std::variant<std::unique_ptr<RasterPart>, HeightSource> content) {
+        world_->parts.push_back(
+            {layer, shift_, settingsOf(layer), std::move(content), layers_.size() - 1, path_});
     }
 
     Result<void> addRasters(const WorldLayer& layer, const std::vector<std::filesystem::path>& files) {
         TRY_ASSIGN(auto opened, openRasterAreas(files, settings_, cache_));
+        for (const RasterArea& area : opened.areas) {
+            for (const RasterMosaic::Tile& tile : area.mosaic.tiles()) TRY(checkDatum(layer, *tile.raster));
+        }
         addAreas(layer, std::move(opened));
         return {};
     }
@@ -493,6 +566,7 @@ private:
     Result<void> addPlaced(const WorldLayer& layer, const std::filesystem::path& file) {
         HeightSourceSettings settings = settings_;
         settings.rawSize = layer.rawSize;
+        settings.rawRows = layer.rawRows;
         settings.rawBigEndian = layer.rawBigEndian;
         settings.rawSigned = layer.rawSigned;
         TRY_ASSIGN(auto opened, openRasterAreas({file}, settings, cache_, [&](std::size_t) {
@@ -509,13 +583,14 @@ private:
         std::ranges::reverse(opened.areas);
         for (RasterArea& area : opened.areas) {
             widen(layer, extentOf(area));
+            rasterSamples_ += area.sampleCount;
             auto part = std::make_unique<RasterPart>(RasterPart{std::move(area), {}});
             if (layer.featherM > 0) {
                 const bool showsBelow = layer.voids == LayerVoids::Below;
                 part->rim.emplace(part->area, std::min(1.0, layer.featherM / radiusM_),
                                   showsBelow ? RimDistance::Rims::TilesAndVoids : RimDistance::Rims::Tiles);
             }
-            world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(part), layers_.size() - 1});
+            addPart(layer, std::move(part));
         }
     }
 
@@ -529,6 +604,8 @@ private:
                 layer.detail));
         }
         const Extent extent = extent_;
+        wholeBytes_ += cachedBytes(rasterSamples_, cacheBytes_);  // of the layers so far
+        rasterSamples_ = 0;
         TRY_ASSIGN(auto refined, amplified(finish({}), std::get<DetailTerrain>(terrain.settings)));
         world_ = std::make_unique<World>();
         world_->minM = refined.minM;
@@ -536,11 +613,13 @@ private:
         extent_ = {refined.minM, refined.maxM, refined.naturalFaceSize - 1, extent.sampleCount,
                    extent.missingCount};
         layers_.push_back(refined.layers->layers.back());
-        world_->parts.push_back({layer, shift_, settingsOf(layer), std::move(refined), layers_.size() - 1});
+        addPart(layer, std::move(refined));
         return {};
     }
 
+    std::filesystem::path path_;  // of the world file
     HeightSourceSettings settings_;
+    std::size_t cacheBytes_;  // of all rasters
     std::shared_ptr<MosaicCache> cache_;
     double radiusM_;
     double fillM_;
@@ -548,8 +627,11 @@ private:
     std::optional<DatumShift> shift_;     // of the layer that is being added
     std::unique_ptr<World> world_;
     Extent extent_;
+    bool hasHeights_ = false;
     std::vector<SourceLayer> layers_;
     std::vector<std::string> skipped_;  // as in HeightSource
+    std::uint64_t rasterSamples_ = 0;
+    std::uint64_t wholeBytes_ = 0;  // that the caches of layers of the whole planet hold
 };
 
 }  // namespace
@@ -562,13 +644,18 @@ Result<HeightSource> openWorld(const std::filesystem::path& path, const HeightSo
                                     settings.colourChannel ? "colour" : "elevation",
                                     settings.colourChannel ? "colour" : "elevation"));
     }
-    WorldBuilder builder(file, layers.size(), settings);
+    WorldBuilder builder(path, file, layers.size(), settings);
     for (const WorldLayer& layer : layers) {
         if (const Result<void> added = builder.add(layer); !added) {
             const Error& error = added.error();
             return tl::unexpected(Error{error.kind, fmt::format("{} (layer \"{}\" of {})", error.message,
                                                                 layer.name, path.string())});
         }
+    }
+    if (!builder.hasHeights()) {
+        return badInput(
+            fmt::format("{}: has no {}, because all samples of its layers are missing; expected some",
+                        path.string(), settings.colourChannel ? "colours" : "heights"));
     }
     return builder.finish(fmt::format("{}, {} layer{}", path.filename().string(), layers.size(),
                                       layers.size() == 1 ? "" : "s"));

@@ -2,7 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "planet/source/height_source.h"
 #include "tests/support/synthetic_colours.h"
 #include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
@@ -115,6 +122,44 @@ TEST(BakeEstimate, coloursAreEstimatedBesideTheHeights) {
         EXPECT_GT(estimate->seconds, estimate->colour->seconds);
         expectWithinHalf(estimate->colour->fileBytes / static_cast<double>(real->colourBytes));
         EXPECT_DOUBLE_EQ(estimate->fileBytes, without->fileBytes + estimate->colour->fileBytes);
+    }
+}
+
+// Bakes a file, and ends the process: with 0 if the estimate of the memory is within a factor of two.
+void exitByMemory(const std::filesystem::path& file, const std::filesystem::path& output) {
+    const auto peakBytes = [] {
+        rusage usage{};
+        ::getrusage(RUSAGE_SELF, &usage);
+        return 1024 * static_cast<double>(usage.ru_maxrss);  // Linux counts it in KiB
+    };
+    const BakeSettings settings{.threads = 2};
+    const double before = peakBytes();
+    bool isWithin = false;
+    {
+        const HeightSource source = openHeightSource(file, {}).value();
+        const bool isBaked = bake(source, settings, output).has_value();
+        const double grown = peakBytes() - before;
+        const double ratio = static_cast<double>(estimateBake(source, settings)->bakeBytes) / grown;
+        isWithin = isBaked && ratio > 0.5 && ratio < 2;
+        std::cerr << "grown by " << grown << " bytes, estimated at " << ratio << " of it\n";
+    }
+    std::quick_exit(isWithin ? 0 : 1);
+}
+
+// Each bake has a process of its own, whose memory nothing else has used.
+TEST(BakeEstimate, memoryIsWithinAFactorOfTwo) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer keeps freed memory";
+#endif
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path data = std::filesystem::path(WORLDY_SOURCE_DIR) / "data";
+    std::ofstream(folder / "world.toml")
+        << "[[elevation]]\nfiles = \"" << (data / "earth/elevation.tif").string()
+        << "\"\n[[elevation]]\nfiles = \"" << (data / "regions/S33W071.tif").string() << "\"\n";
+    for (const std::filesystem::path& file :
+         {data / "earth/elevation.tif", data / "regions/N49W123.tif", folder / "world.toml"}) {
+        EXPECT_EXIT(exitByMemory(file, folder / "real.chk"), testing::ExitedWithCode(0), "grown by") << file;
     }
 }
 

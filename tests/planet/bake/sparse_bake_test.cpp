@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <mutex>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -18,7 +19,9 @@
 #include "planet/format/chunk_file.h"
 #include "planet/format/chunk_file_format.h"
 #include "planet/select/drawn_surface.h"
+#include "planet/source/height_source.h"
 #include "planet/source/sample_tiles.h"
+#include "tests/planet/source/raster_fixture.h"
 #include "tests/support/chunks_of_file.h"
 #include "tests/support/sparse_source.h"
 #include "tests/support/temporary_folder.h"
@@ -120,6 +123,49 @@ TEST(SparseBake, holdsTheSourcesHeightsAtEveryVertexOfEveryLevel) {
                 ASSERT_EQ(heightM(baked.shape, chunk.heights[at++]), expected) << toString(id);
             }
         }
+    }
+}
+
+TEST(SparseBake, fortyTilesHaveTheBlocksOfTheWholeRaster) {
+    const TemporaryFolder folder;
+    const test::SampleGrid grid = test::gridAround(32719, -70.3, -32.6, 400, 250, 200);
+    std::vector<float> samples = test::samplesOf(grid, [](double longitude, double latitude) {
+        return 2000 + 900 * std::sin(40 * longitude) * std::cos(30 * latitude);
+    });
+    for (int i = 0; i < grid.width * grid.height; ++i) {
+        const int column = i % grid.width;
+        const int row = i / grid.width;
+        if (std::hypot(column - 210, row - 140) < 70) samples[static_cast<std::size_t>(i)] = -9999;
+    }
+    writeRaster(folder / "whole.tif", grid, samples, {.noData = -9999});
+    for (int tile = 0; tile < 40; ++tile) {
+        const int left = tile / 5 * 50;
+        const int top = tile % 5 * 50;
+        std::vector<float> part;
+        for (int row = top; row < top + 50; ++row) {
+            const auto from = samples.begin() + row * grid.width + left;
+            part.insert(part.end(), from, from + 50);
+        }
+        const test::SampleGrid place{grid.epsg, 50, 50, grid.x + left * grid.step, grid.y - top * grid.step,
+                                     grid.step};
+        writeRaster(folder / ("tile" + std::to_string(tile) + ".tif"), place, part, {.noData = -9999});
+    }
+    const HeightSource wholeSource = openHeightSource(folder / "whole.tif", {}).value();
+    const HeightSource tilesSource = openHeightSource(folder / "tile*.tif", {}).value();
+    EXPECT_EQ(wholeSource.naturalFaceSize, tilesSource.naturalFaceSize);
+    const BakedTree whole(wholeSource, {.chunkSize = 17});
+    const BakedTree tiles(tilesSource, {.chunkSize = 17});
+    EXPECT_GT(whole.chunks.size(), 500u);
+    ASSERT_EQ(whole.chunks.size(), tiles.chunks.size());
+    for (const auto& [id, chunk] : whole.chunks) {
+        ASSERT_TRUE(tiles.chunks.contains(id)) << toString(id);
+        const ChunkData& other = tiles.chunks.at(id);
+        ASSERT_EQ(chunk.children, other.children) << toString(id);
+        ASSERT_EQ(chunk.deltaCM, other.deltaCM) << toString(id);
+        ASSERT_EQ(chunk.deltaTightM, other.deltaTightM) << toString(id);
+        for (std::size_t i = 0; i < chunk.heights.size(); ++i)
+            ASSERT_EQ(heightM(whole.shape, chunk.heights[i]), heightM(tiles.shape, other.heights[i]))
+                << toString(id);
     }
 }
 

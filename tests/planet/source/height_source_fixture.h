@@ -117,14 +117,21 @@ inline std::vector<float> sampledFace(const HeightSource& source, Face face, int
     return sampled(source, {face, faceCells, 0, 0, faceCells + 1, faceCells + 1});
 }
 
-// At the grid's sample nearest to a place.
-inline float sampledNear(const HeightSource& source, int faceCells, double latitudeDeg, double longitudeDeg) {
+// The grid's sample nearest to a place.
+inline SampleTile tileNear(int faceCells, double latitudeDeg, double longitudeDeg) {
     const double rad = 3.14159265358979323846 / 180;
     const FacePoint point =
         facePointFromDirection(directionFromGeographic({latitudeDeg * rad, longitudeDeg * rad}));
-    return sampledAt(source, point.face, faceCells,
-                     static_cast<int>(std::lround((point.u + 1) / 2 * faceCells)),
-                     static_cast<int>(std::lround((point.v + 1) / 2 * faceCells)));
+    return {point.face,
+            faceCells,
+            static_cast<int>(std::lround((point.u + 1) / 2 * faceCells)),
+            static_cast<int>(std::lround((point.v + 1) / 2 * faceCells)),
+            1,
+            1};
+}
+
+inline float sampledNear(const HeightSource& source, int faceCells, double latitudeDeg, double longitudeDeg) {
+    return sampled(source, tileNear(faceCells, latitudeDeg, longitudeDeg))[0];
 }
 
 // The direction of a sample of a grid.

@@ -14,6 +14,7 @@
 namespace planet {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
@@ -103,6 +104,48 @@ TEST_F(HostileRaster, DimensionsThatAFileCannotHoldAreRefused) {
     GDALSetSpatialRef(sparse, test::Crs(4326).system());
     GDALClose(sparse);
     EXPECT_THAT(errorOf(folder / "spars*.tif"), HasSubstr("2097152 x 262144 samples; expected at most 2^38"));
+}
+
+// Creates a sparse file with blocks of 1024 x 1024 samples, of which one has a height of 500 m.
+void writeSparse(const std::filesystem::path& path, int width, int height, bool hasNoData) {
+    GDALAllRegister();
+    const std::vector<const char*> options = {"SPARSE_OK=TRUE",  "TILED=YES",   "BLOCKXSIZE=1024",
+                                              "BLOCKYSIZE=1024", "BIGTIFF=YES", nullptr};
+    const GDALDatasetH sparse = GDALCreate(GDALGetDriverByName("GTiff"), path.string().c_str(), width, height,
+                                           1, GDT_Int16, options.data());
+    ASSERT_TRUE(sparse);
+    double transform[] = {10, 1e-4, 0, 45, 0, -1e-4};
+    GDALSetGeoTransform(sparse, transform);
+    GDALSetSpatialRef(sparse, test::Crs(4326).system());
+    if (hasNoData) GDALSetRasterNoDataValue(GDALGetRasterBand(sparse, 1), -9999);
+    std::vector<std::int16_t> block(1024 * 1024, 500);
+    ASSERT_EQ(GDALRasterIO(GDALGetRasterBand(sparse, 1), GF_Write, 1024, 2048, 1024, 1024, block.data(), 1024,
+                           1024, GDT_Int16, 0, 0),
+              CE_None);
+    GDALClose(sparse);
+}
+
+TEST_F(HostileRaster, EmptyBlocksAreNotRead) {
+    constexpr int side = 1 << 14;
+    writeSparse(folder / "sparse.tif", side, side, true);
+    const HeightSource source = mustOpen(folder / "sparse.tif");
+    EXPECT_EQ(source.sampleCount, std::uint64_t{side} * side);
+    EXPECT_EQ(source.missingCount, source.sampleCount - 1024 * 1024);
+    EXPECT_FLOAT_EQ(sampledNear(source, test::finest, 45 - 0.25, 10 + 0.15), 500);
+    EXPECT_EQ(sampledNear(source, test::finest, 45 - 0.25, 10 + 0.3), 0);
+    EXPECT_LE(source.reads().read, 10u * 1024 * 1024);
+}
+
+TEST_F(HostileRaster, MoreSamplesThanAFileCanHoldAreRefused) {
+    // 2^35 samples would be read for minutes.
+    writeSparse(folder / "zeros.tif", 1 << 18, 1 << 17, false);
+    EXPECT_THAT(errorOf(folder / "zeros.tif"),
+                AllOf(HasSubstr("zeros.tif: is 262144 x 131072 samples in files of "),
+                      HasSubstr("expected at most")));
+    writeSparse(folder / "sparse.tif", 1 << 18, 1 << 17, true);
+    const HeightSource source = mustOpen(folder / "sparse.tif");
+    EXPECT_FLOAT_EQ(sampledNear(source, test::finest, 45 - 0.25, 10 + 0.15), 500);
+    EXPECT_LE(source.reads().read, 10u * 1024 * 1024);
 }
 
 TEST_F(HostileRaster, BlocksThatDoNotFitInMemoryAreRefused) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planet/source/world_file.h"
 #include "tests/planet/source/height_source_fixture.h"
 #include "tests/planet/source/raster_fixture.h"
 
@@ -110,6 +111,25 @@ TEST_F(PlacedImage, RawFileIsPlacedInOneLine) {
     expectPlaced("files = \"little.raw\"" + place, {46.5, 8}, 8192, 0);
     expectPlaced("files = \"little.raw\"\nraw_size = 257" + place, {46.5, 8}, 8192, 0);
     expectPlaced("files = \"big.raw\"\nraw_big_endian = true" + place, {46.5, 8}, 8192, 0);
+}
+
+TEST_F(PlacedImage, RawFileCanBeARectangle) {
+    // 3 rows of 5 samples, 1000 m apart: the middle one is 207, and the one east of it 208.
+    std::string bytes;
+    for (int i = 0; i < 15; ++i) bytes += {static_cast<char>(200 + i), '\0'};
+    writeBytes(folder / "wide.raw", bytes);
+    const std::string layer = "files = \"wide.raw\"\nplace = {lat = 0, lon = 8, width_m = 4000}\n";
+    const HeightSource source = mustOpen(write(layer + "raw_size = [5, 3]\n"));
+    EXPECT_EQ(source.sampleCount, 15u);
+    EXPECT_NEAR(sampledNear(source, finest, 0, 8), 207, 0.02);
+    EXPECT_NEAR(sampledNear(source, finest, 0, 8 + 1000 / 6'371'000.0 / radPerDeg), 208, 0.02);
+    EXPECT_NEAR(sampledNear(source, finest, -1000 / 6'371'000.0 / radPerDeg, 8), 212, 0.02);
+    EXPECT_THAT(errorOf(write(layer + "raw_size = [5, 4]\n")),
+                HasSubstr("has 30 bytes; expected 40 for raw_size = [5, 4]"));
+    EXPECT_THAT(errorOf(write(layer + "raw_size = [5]\n")), HasSubstr("expected [columns, rows]"));
+    EXPECT_THAT(errorOf(write(layer)), HasSubstr("or raw_size = [columns, rows]"));
+    const WorldFile world = readWorldFile(write(layer + "raw_size = [5, 3]\n")).value();
+    EXPECT_EQ(worldFromText(worldText(world, folder.path()), folder / "again.toml")->layers[0].rawRows, 3);
 }
 
 TEST_F(PlacedImage, ScaleTurnsValuesIntoMetres) {

@@ -86,6 +86,7 @@ struct RasterFile {
     std::vector<std::uint8_t> mask{};               // 0: hidden; empty: no mask
     std::vector<std::vector<float>> bandSamples{};  // of each band; empty: all bands have the same
     std::vector<GDALColorEntry> palette{};          // empty: no colour table
+    std::vector<GDALColorInterp> meanings{};        // of the bands; empty: as GDAL chooses
     std::vector<const char*> options{};
 };
 
@@ -134,6 +135,8 @@ inline void writeRaster(const std::filesystem::path& path, const SampleGrid& gri
             require(GDALSetRasterColorTable(band, table) == CE_None);
             GDALDestroyColorTable(table);
         }
+        if (!file.meanings.empty())
+            GDALSetRasterColorInterpretation(band, file.meanings[static_cast<std::size_t>(i - 1)]);
         if (file.noData) GDALSetRasterNoDataValue(band, *file.noData);
         if (file.scale) GDALSetRasterScale(band, *file.scale);
         if (file.offset) GDALSetRasterOffset(band, *file.offset);

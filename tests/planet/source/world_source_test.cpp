@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "tests/planet/source/height_source_fixture.h"
 #include "tests/planet/source/raster_fixture.h"
@@ -80,6 +85,139 @@ TEST_F(WorldSource, VoidsShowWhatTheirLayerSays) {
     EXPECT_FLOAT_EQ(at("voids = \"below\""), 300);
     EXPECT_FLOAT_EQ(at("voids = \"fill\""), 700);
     EXPECT_FLOAT_EQ(at("voids = 12.5"), 12.5);
+}
+
+// Samples of the whole planet, 5 degrees apart.
+constexpr SampleGrid wholePlanetGrid = {4326, 72, 36, -177.5, 87.5, 5};
+
+// A height in the east, and another one in the west.
+std::vector<float> eastAndWest(float east, float west) {
+    return test::samplesOf(wholePlanetGrid,
+                           [=](double longitude, double) { return longitude > 0 ? east : west; });
+}
+
+TEST_F(WorldSource, VoidsOfAnImageOfTheWholePlanetShowWhatTheirLayerSays) {
+    writeRaster(folder / "base.tif", wholePlanetGrid, std::vector<float>(72 * 36, -3000));
+    writeRaster(folder / "land.tif", wholePlanetGrid, eastAndWest(700, -9999), {.noData = -9999});
+    std::vector<std::uint8_t> mask(72 * 36);
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = i % 72 < 36 ? 0 : 255;
+    writeRaster(folder / "masked.tif", wholePlanetGrid, eastAndWest(700, 5), {.mask = mask});
+    for (const std::string file : {"land.tif", "masked.tif"}) {
+        const auto at = [&](double longitude, const std::string& keys) {
+            const HeightSource world = worldOf(
+                "[[elevation]]\nfiles = \"base.tif\"\n[[elevation]]\nfiles = \"" + file + "\"\n" + keys);
+            return sampledNear(world, 64, 10, longitude);
+        };
+        for (const std::string keys : {"", "voids = \"below\"", "voids = \"fill\"", "voids = 123",
+                                       "join = \"max\"", "feather_m = 1000"})
+            EXPECT_FLOAT_EQ(at(90, keys), 700) << file << " " << keys;
+        for (const std::string keys :
+             {"", "voids = \"below\"", "join = \"max\"", "join = \"add\"", "feather_m = 1000"})
+            EXPECT_FLOAT_EQ(at(-90, keys), -3000) << file << " " << keys;
+        EXPECT_FLOAT_EQ(at(-90, "voids = 123"), 123) << file;
+        EXPECT_FLOAT_EQ(at(-90, "voids = \"fill\""), 700) << file;
+        EXPECT_FLOAT_EQ(at(90, "join = \"add\""), -2300) << file;
+        const float feathered = at(4, "feather_m = 1000000");
+        EXPECT_GT(feathered, -2900) << file;
+        EXPECT_LT(feathered, 600) << file;
+    }
+}
+
+TEST_F(WorldSource, ImageWithVoidsAndWithoutAPositionIsRefused) {
+    writeImage(folder / "holed.exr", Image<float>(72, 36, [](int x, int) { return x < 36 ? NAN : 700; }));
+    EXPECT_THAT(
+        errorOfWorld("[[elevation]]\nterrain = \"noise:fbm\"\n[[elevation]]\nfiles = \"holed.exr\"\n"),
+        AllOf(HasSubstr("holed.exr: 1296 of its samples are missing, and it has no position"),
+              HasSubstr("expected"), HasSubstr("layer \"holed.exr\"")));
+    writeImage(folder / "full.exr", Image<float>(72, 36, [](int, int) { return 700; }));
+    EXPECT_FLOAT_EQ(
+        sampledNear(worldOf("[[elevation]]\nfiles = \"full.exr\"\nfeather_m = 1000\n"), 64, 10, 0), 700);
+}
+
+TEST_F(WorldSource, AlphaOfAColourLayerShowsTheColoursUnderIt) {
+    const std::vector<float> grey(72 * 36, 40);
+    writeRaster(
+        folder / "grey.tif", wholePlanetGrid, std::vector<float>(),
+        {.type = GDT_Byte, .bands = 3, .bandSamples = {grey, grey, grey}, .options = {"PHOTOMETRIC=RGB"}});
+    const std::vector<float> white(72 * 36, 255);
+    writeRaster(folder / "east.tif", wholePlanetGrid, std::vector<float>(),
+                {.type = GDT_Byte,
+                 .bands = 4,
+                 .bandSamples = {white, white, white, eastAndWest(255, 0)},
+                 .meanings = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand},
+                 .options = {"PHOTOMETRIC=RGB", "ALPHA=YES"}});
+    HeightSourceSettings red;
+    red.colourChannel = 0;
+    const HeightSource world =
+        mustOpen(write("[[colour]]\nfiles = \"grey.tif\"\n[[colour]]\nfiles = \"east.tif\"\n"), red);
+    const float shown = sampledNear(mustOpen(folder / "grey.tif", red), 64, 10, 0);
+    EXPECT_GT(shown, 0);
+    EXPECT_FLOAT_EQ(sampledNear(world, 64, 10, 90), 1);
+    EXPECT_FLOAT_EQ(sampledNear(world, 64, 10, -90), shown);
+}
+
+TEST_F(WorldSource, DatumThatTheFileContradictsIsRefusedWithoutAnOffset) {
+    // WGS 84 with heights of EGM96, of EGM2008 and above the ellipsoid.
+    for (const auto& [epsg, datum, other] : {std::tuple(9707, "egm96", "egm2008"),
+                                             {9518, "egm2008", "ellipsoid"},
+                                             {4979, "ellipsoid", "egm96"}}) {
+        SampleGrid grid = gridAround(4326, 10, 45, 40, 40, 0.01);
+        grid.epsg = epsg;
+        writeRaster(folder / "inset.tif", grid, std::vector<float>(1600, 200));
+        grid = wholePlanetGrid;
+        grid.epsg = epsg;
+        writeRaster(folder / "globe.tif", grid, std::vector<float>(72 * 36, 200));
+        for (const std::string file : {"inset.tif", "globe.tif"}) {
+            const auto layer = [&](const std::string& layerDatum) {
+                return fmt::format("datum = \"{0}\"\n[[elevation]]\nfiles = \"{1}\"\ndatum = \"{0}\"\n",
+                                   layerDatum, file);
+            };
+            EXPECT_FLOAT_EQ(sampledNear(worldOf(layer(datum)), finest, 45, 10), 200) << epsg << file;
+            EXPECT_THAT(
+                errorOfWorld(layer(other)),
+                AllOf(HasSubstr(file + ": says that its heights are "),
+                      HasSubstr(fmt::format("but the layer's datum is {}", other)),
+                      HasSubstr(fmt::format("expected datum = \"{}\"", datum)), HasSubstr("offset_m")))
+                << epsg;
+            EXPECT_FLOAT_EQ(sampledNear(worldOf(layer(other) + "offset_m = 7\n"), finest, 45, 10), 207)
+                << epsg;
+        }
+    }
+}
+
+TEST_F(WorldSource, LayerWithoutHeightsLeavesTheOthers) {
+    writeRaster(folder / "void.tif", gridAround(4326, 10, 45, 40, 40, 0.01), std::vector<float>(1600, -9999),
+                {.noData = -9999});
+    const std::string plain = "[[elevation]]\nfiles = \"plain.tif\"\n";
+    const std::string nothing = "[[elevation]]\nfiles = \"void.tif\"\n";
+    for (const std::string& text : {plain + nothing, nothing + plain}) {
+        const HeightSource world = worldOf(text);
+        EXPECT_EQ(world.minM, 0);
+        EXPECT_EQ(world.maxM, 300);
+        EXPECT_FLOAT_EQ(sampledNear(world, finest, 45, 10), 300);
+    }
+    // One grid of a layer has no heights.
+    const HeightSource world = worldOf("[[elevation]]\nfiles = [\"plain.tif\", \"void.tif\"]\n");
+    EXPECT_EQ(world.maxM, 300);
+    EXPECT_EQ(worldOf(plain + nothing + "voids = 450\n").maxM, 450);
+    EXPECT_THAT(errorOfWorld(nothing), AllOf(HasSubstr("world.toml"), HasSubstr("has no heights")));
+}
+
+TEST_F(WorldSource, ErrorsWhileSamplingNameTheLayer) {
+    const HeightSource world = worldOf(plainAndMesa);
+    // So many other rasters take its place among the open files.
+    std::vector<HeightSource> others;
+    for (int i = 0; i < 70; ++i) {
+        const auto file = folder / fmt::format("other{}.tif", i);
+        writeRaster(file, gridAround(4326, 10, 45, 4, 4, 0.01), std::vector<float>(16, 1));
+        others.push_back(mustOpen(file));
+    }
+    std::filesystem::resize_file(folder / "mesa.tif", 500);
+    float height = 0;
+    const Result<void> sampled = world.sample(tileNear(finest, 45.05, 10), std::span(&height, 1));
+    ASSERT_FALSE(sampled);
+    EXPECT_THAT(sampled.error().message, AllOf(HasSubstr("mesa.tif: "), HasSubstr("(layer \"mesa.tif\""),
+                                               HasSubstr("world.toml"), HasSubstr("expected")));
 }
 
 TEST_F(WorldSource, GapsBetweenTilesOfALayerAreNoVoids) {

@@ -343,6 +343,11 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
              "Estimated file size, from a sample of blocks baked in memory; accurate to about 10 %.");
     valueRow("Expected time", value([](const Estimate& e) { return durationText(e.seconds); }),
              "Estimated time on this machine with these threads and no other load.");
+    valueRow(
+        "Expected memory",
+        value([](const Estimate& e) { return bytesText(static_cast<double>(e.bakeBytes)); }),
+        "Estimated peak memory of the bake besides the program's own, including colours; accurate to about a "
+        "factor of two.");
     valueRow("Chunks", value([](const Estimate& e) {
                  return fmt::format("{} on {} levels", countText(static_cast<double>(e.chunks)),
                                     planet::deepestLevelOf(e.shape) + 1);
