@@ -18,7 +18,7 @@ namespace worldy {
 // One or more frames that follow each other. Numbers are the largest of these frames, sums where a comment says so.
 struct TracedSample {
     std::uint64_t frame = 0;  // the first one
-    // Of the first one, engine's clock; finite, and never less than that of the sample before.
+    // The time of the first frame by the engine's clock. It is finite and never less than that of the sample before.
     double timeS = 0;
     float cpuMs = std::numeric_limits<float>::quiet_NaN();  // NaN: not told
     float gpuMs = std::numeric_limits<float>::quiet_NaN();

@@ -96,7 +96,8 @@ struct TraceSelectorSettings {
     std::optional<double> tauPx{};       // pixels, > 0
     std::optional<double> hysteresis{};  // [0, 1); 0 if the engine told none
     std::optional<double> maxLevel{};    // unlimited if the engine told none
-    // Of the errors that are compared with τ. Those of the result are always by the bounds, so that results can be compared.
+    // The errors that are compared with τ use this distance. Those of the result are always by the bounds, so that results can
+    // be compared.
     TraceMetric metric = TraceMetric::Bounds;
     // Nodes with the largest error are split first, as long as the bytes that the view needs stay within the budget.
     std::optional<std::uint64_t> budgetBytes{};

@@ -144,7 +144,7 @@ private:
     std::uint64_t droppedTotal_ = 0;
 };
 
-// What a distance is measured to.
+// Says to which point of a node a distance is measured.
 enum class TraceMetric : std::uint8_t {
     Bounds,  // the sphere or box that the engine told; 0 inside
     Sphere,  // the sphere around a box; 0 inside

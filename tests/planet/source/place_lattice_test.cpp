@@ -141,7 +141,7 @@ TEST(PlaceLattice, PlaceIsTheSameInEveryPieceAndOnEveryGrid) {
 
 TEST(PlaceLattice, SharedEdgesHaveTheSameBits) {
     const tests::TemporaryFolder folder;
-    // So coarse that a lattice is used on a grid of 256 cells, of which every edge is compared.
+    // At this resolution a lattice is used even on a grid of 256 cells, whose edges are all compared.
     writeRaster(folder / "coarse.tif", gridAround(32638, 45, 35.264, 12, 12, 640'000),
                 [](double longitude, double latitude) { return 100 * std::sin(longitude) + 50 * latitude; });
     const HeightSource source = mustOpen(folder / "coarse.tif");

@@ -205,7 +205,7 @@ TEST_F(WorldSource, LayerWithoutHeightsLeavesTheOthers) {
 
 TEST_F(WorldSource, ErrorsWhileSamplingNameTheLayer) {
     const HeightSource world = worldOf(plainAndMesa);
-    // So many other rasters take its place among the open files.
+    // These rasters take its place among the open files.
     std::vector<HeightSource> others;
     for (int i = 0; i < 70; ++i) {
         const auto file = folder / fmt::format("other{}.tif", i);
