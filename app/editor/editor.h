@@ -35,8 +35,9 @@ public:
     // Writes the positions of controls into a file after each frame.
     void keepItemMap(const std::filesystem::path& file) { window_.itemMapFile = file; }
 
-    // Opens the trace, beside its panels if the session names no planet, and moves the camera of a session in the first frames, and shows its results. problem: why the
-    // session or a part of it cannot be opened, which the first frames tell; empty if there is none.
+    // Opens the trace and moves the camera of a session in the first frames, and shows its results. A session without a
+    // planet is a trace that was named alone, whose panels are shown. problem: why the session or a part of it cannot be
+    // opened, which the first frames tell; empty if there is none.
     void resume(const LastSession& session, const KeptResults& results, const std::string& problem);
     // Reports a problem in the log and in a message box.
     void tell(const std::string& title, const std::string& problem);

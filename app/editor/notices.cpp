@@ -10,12 +10,28 @@
 
 namespace worldy {
 
+namespace {
+
+// A text that is shown already is counted.
+void addAlert(Notices& notices, LogLevel level, const std::string& text, double shownS) {
+    const double untilS = notices.timeS + shownS;
+    const auto shown = std::ranges::find(notices.alerts, text, &ui::Alert::text);
+    if (shown == notices.alerts.end()) {
+        notices.alerts.push_back({level, text, 1, untilS});
+    } else {
+        ++shown->count;
+        shown->untilS = untilS;
+    }
+}
+
+}  // namespace
+
 void show(Notices& notices, const std::string& text) {
     notices.confirmation = {text, notices.timeS + confirmationS};
 }
 
 void refuse(Notices& notices, const std::string& why) {
-    notices.alerts.push_back({LogLevel::Warning, why, 1, notices.timeS + confirmationS});
+    addAlert(notices, LogLevel::Warning, why, confirmationS);
 }
 
 void showBriefly(Notices& notices, const std::string& text) {
@@ -61,14 +77,7 @@ void alertOf(Notices& notices, const std::deque<LogLine>& log, std::size_t newLi
     for (std::size_t i = log.size() - newLines; i < log.size(); ++i) {
         const LogLine& line = log[i];
         if (line.level < LogLevel::Warning || isTold(line.text)) continue;
-        const double untilS = notices.timeS + alertS;
-        const auto shown = std::ranges::find(notices.alerts, line.text, &ui::Alert::text);
-        if (shown == notices.alerts.end()) {
-            notices.alerts.push_back({line.level, line.text, 1, untilS});
-        } else {
-            ++shown->count;
-            shown->untilS = untilS;
-        }
+        addAlert(notices, line.level, line.text, alertS);
     }
 }
 

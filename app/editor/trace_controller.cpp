@@ -53,10 +53,12 @@ void jumpTo(TraceController& controller, std::uint64_t frame) {
 void beginAtADrawnFrame(TraceController& controller) {
     if (!controller.history || !controller.history->isComplete) return;
     const TraceHistory& history = *controller.history;
+    if (history.samples.empty()) return;
     for (std::size_t i = 0; i < history.samples.size(); ++i)
         for (const auto& [view, samples] : history.views)
             if (i < samples.size() && samples[i].drawn > 0)
                 return jumpTo(controller, history.samples[i].frame);
+    jumpTo(controller, history.samples.front().frame);  // so that it is not looked for again
 }
 
 std::uint64_t shownFrame(const TraceController& controller) {

@@ -6,10 +6,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <utility>
 
 #include "app/base/text.h"
-#include "planet/trace/lod_trace.h"
+#include "planet/trace/trace_quadtree.h"
 
 namespace worldy {
 
@@ -122,29 +123,23 @@ void sayParent(Reasons& why) {
 // Names the coarsest drawn neighbour on the node's own face, and says what hides the gap between them.
 void sayNeighbour(Reasons& why) {
     if (why.frame.description.value_or(planet::TraceDescription{}).ids != planet::TraceIds::Quadtree) return;
-    constexpr std::uint64_t coordinate = (1u << 28) - 1;
-    const std::uint64_t id = why.node.node.id;
-    const auto face = static_cast<std::uint32_t>(id >> 61);
-    const auto level = static_cast<std::uint32_t>(id >> 56 & 31);
-    const auto x = static_cast<std::int64_t>(id & coordinate);
-    const auto y = static_cast<std::int64_t>(id >> 28 & coordinate);
+    const planet::TraceQuadtreePlace place = planet::traceQuadtreePlace(why.node.node.id);
     const TracedNode* coarsest = nullptr;
-    for (const auto& [nextX, nextY] :
-         {std::pair{x - 1, y}, std::pair{x + 1, y}, std::pair{x, y - 1}, std::pair{x, y + 1}}) {
-        const std::int64_t side = std::int64_t{1} << level;
-        if (nextX < 0 || nextY < 0 || nextX >= side || nextY >= side) continue;
-        for (std::uint32_t up = 1; up <= level; ++up) {
-            const auto parentX = static_cast<std::uint32_t>(nextX >> up);
-            const auto parentY = static_cast<std::uint32_t>(nextY >> up);
-            if (parentX == x >> up && parentY == y >> up) break;  // its own ancestor
-            const TracedNode* const beside =
-                why.view.find(lod_trace_quadtree_id(face, level - up, parentX, parentY));
-            if (!beside || beside->place != TracedPlace::Drawn) continue;
-            if (!coarsest || beside->node.level < coarsest->node.level) coarsest = beside;
+    std::uint32_t coarsestLevel = place.level;
+    for (const planet::Edge edge : planet::allEdges) {
+        std::optional<planet::TraceQuadtreePlace> beyond = planet::tracePlaceBeyond(place, edge, false);
+        while (beyond && beyond->level > 0) {
+            beyond = {beyond->face, beyond->level - 1, beyond->x / 2, beyond->y / 2};
+            const std::uint32_t up = place.level - beyond->level;
+            if (beyond->x == place.x >> up && beyond->y == place.y >> up) break;  // its own ancestor
+            const TracedNode* const beside = why.view.find(planet::traceQuadtreeId(*beyond));
+            if (!beside || beside->place != TracedPlace::Drawn || beyond->level >= coarsestLevel) continue;
+            coarsest = beside;
+            coarsestLevel = beyond->level;
         }
     }
     if (!coarsest) return;
-    const std::uint32_t steps = level - coarsest->node.level;
+    const std::uint32_t steps = place.level - coarsestLevel;
     const auto setting = why.frame.settings.find("skirts");
     const double* const skirts =
         setting == why.frame.settings.end() ? nullptr : std::get_if<double>(&setting->second);

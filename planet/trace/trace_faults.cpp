@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "planet/sphere/chunk_id.h"
+#include "planet/trace/trace_quadtree.h"
 
 namespace planet {
 
@@ -134,34 +135,6 @@ TraceNodeIndex missingChild(const TraceState& state, const TraceNodeState& node)
         if (missing == noTraceNode) missing = child;
     }
     return missing != noTraceNode && arriving != noTraceNode ? arriving : missing;
-}
-
-constexpr std::uint64_t coordinateMask = (std::uint64_t{1} << 28) - 1;
-
-struct QuadtreePlace {
-    std::uint64_t face, level, x, y;
-};
-QuadtreePlace placeOf(std::uint64_t id) {
-    return {id >> 61, id >> 56 & 31, id & coordinateMask, id >> 28 & coordinateMask};
-}
-std::uint64_t idOf(const QuadtreePlace& place) {
-    return place.face << 61 | place.level << 56 | place.y << 28 | place.x;
-}
-
-// Returns the place of the same level beyond an edge; nothing where the face ends, unless it is one of a cube.
-std::optional<QuadtreePlace> placeBeyond(const QuadtreePlace& place, Edge edge, bool isCube) {
-    constexpr std::uint64_t mostLevels = 28;
-    if (place.level > mostLevels) return std::nullopt;
-    const std::uint64_t last = (std::uint64_t{1} << place.level) - 1;
-    if (place.x > last || place.y > last) return std::nullopt;
-    const bool leaves = (edge == Edge::West && place.x == 0) || (edge == Edge::East && place.x == last) ||
-                        (edge == Edge::South && place.y == 0) || (edge == Edge::North && place.y == last);
-    if (leaves && (!isCube || place.face >= faceCount)) return std::nullopt;
-    const ChunkId beyond =
-        neighbourOf({static_cast<Face>(place.face), static_cast<std::uint8_t>(place.level),
-                     static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y)},
-                    edge);
-    return QuadtreePlace{static_cast<std::uint64_t>(beyond.face), place.level, beyond.x, beyond.y};
 }
 
 // The bounds of a drawn node along an axis, for a sweep over all of them.
@@ -525,7 +498,9 @@ void TraceFaultFinder::findSteps(const TraceState& state, const TraceFrameView& 
 // Finds the drawn node beyond each edge. A sphere with more than two faces is a cube, whose faces lie as those of
 // cube_sphere.h. Another engine may turn its faces, so beyond the edge of a face the bounds must be near as well, if they are told.
 void TraceFaultFinder::findStepsById(const TraceState& state, int view, const ViewMemory& memory) {
-    const auto placeOfNode = [&](TraceNodeIndex node) { return placeOf(state.nodes()[node].node.id); };
+    const auto placeOfNode = [&](TraceNodeIndex node) {
+        return traceQuadtreePlace(state.nodes()[node].node.id);
+    };
     const auto boundsOf = [&](TraceNodeIndex node) -> const TraceBounds& {
         return state.nodes()[node].node.bounds;
     };
@@ -533,23 +508,25 @@ void TraceFaultFinder::findStepsById(const TraceState& state, int view, const Vi
         state.descriptionOrDefault().shape == TraceShape::Sphere &&
         std::ranges::any_of(memory.list, [&](TraceNodeIndex node) { return placeOfNode(node).face >= 2; });
     for (const TraceNodeIndex node : memory.list) {
-        const QuadtreePlace place = placeOfNode(node);
+        const TraceQuadtreePlace place = placeOfNode(node);
         for (const Edge edge : allEdges) {
-            std::optional<QuadtreePlace> beyond = placeBeyond(place, edge, isCube);
+            std::optional<TraceQuadtreePlace> beyond = tracePlaceBeyond(place, edge, isCube);
             while (beyond && beyond->level > 0) {
                 beyond = {beyond->face, beyond->level - 1, beyond->x / 2, beyond->y / 2};
                 if (place.level - beyond->level < 2) continue;
-                const TraceNodeIndex found = state.find(idOf(*beyond));
+                const TraceNodeIndex found = state.find(traceQuadtreeId(*beyond));
                 if (found == noTraceNode || found >= memory.drawn.size() || memory.drawn[found] != frames_)
                     continue;
                 // Neither its own ancestor nor a node that is drawn with its descendants: those are other faults.
-                const QuadtreePlace own{place.face, beyond->level, place.x >> (place.level - beyond->level),
-                                        place.y >> (place.level - beyond->level)};
+                const TraceQuadtreePlace own{place.face, beyond->level,
+                                             place.x >> (place.level - beyond->level),
+                                             place.y >> (place.level - beyond->level)};
                 const bool isBeside = place.face == beyond->face ||
                                       boundsOf(node).shape == TraceBoundsShape::None ||
                                       boundsOf(found).shape == TraceBoundsShape::None ||
                                       areNear(boundsOf(node), boundsOf(found));
-                if (idOf(own) != idOf(*beyond) && memory.below[found] != frames_ && isBeside)
+                if (traceQuadtreeId(own) != traceQuadtreeId(*beyond) && memory.below[found] != frames_ &&
+                    isBeside)
                     step(state, view, node, found);
                 break;
             }

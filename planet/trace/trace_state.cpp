@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "planet/trace/trace_quadtree.h"
+
 namespace planet {
 
 const TraceFrameView* TraceFrame::view(std::uint8_t which) const {
@@ -224,9 +226,9 @@ double traceErrorPx(const TraceDescription& description, const TraceNode& node, 
 std::string traceIdText(const TraceDescription& description, std::uint64_t id) {
     if (description.ids == TraceIds::Opaque) return fmt::format("{}", id);
     constexpr std::array faces = {"x_pos", "x_neg", "y_pos", "y_neg", "z_pos", "z_neg", "face_6", "face_7"};
-    constexpr std::uint64_t coordinate = (std::uint64_t{1} << 28) - 1;
-    const std::string place = fmt::format("{}/{}/{}", id >> 56 & 31, id & coordinate, id >> 28 & coordinate);
-    return description.shape == TraceShape::Flat ? place : fmt::format("{}/{}", faces[id >> 61], place);
+    const TraceQuadtreePlace place = traceQuadtreePlace(id);
+    const std::string text = fmt::format("{}/{}/{}", place.level, place.x, place.y);
+    return description.shape == TraceShape::Flat ? text : fmt::format("{}/{}", faces[place.face], text);
 }
 
 double traceFadeWaitS(const TraceState& state, int view) {

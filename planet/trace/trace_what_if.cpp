@@ -215,16 +215,15 @@ void TraceWhatIf::note(const TraceState& state, int view, const Sighting& seen, 
     const std::string frames = traceFramesText(it.frames, it.firstFrame, it.lastFrame);
     const std::string name = traceIdText(state.descriptionOrDefault(), it.node);
     const std::uint32_t level = state.nodes()[seen.node].node.level;
-    const double maxLevel =
-        state.setting("max_level", view).value_or(std::numeric_limits<double>::infinity());
+    const double deepest = state.setting("max_level", view).value_or(std::numeric_limits<double>::infinity());
     if (isCoarse) {
         it.sentence = fmt::format(
             "{} is drawn with {:.3f} px although its children are there, {}; expected at most {:g} px", name,
             it.errorPx, frames, it.limitPx);
-    } else if (level >= maxLevel) {
+    } else if (level >= deepest) {
         // Its error may exceed the limit, so that is not why.
         it.sentence = fmt::format("{} of level {} is split, {}; expected no split from max_level {:g} on",
-                                  name, level, frames, maxLevel);
+                                  name, level, frames, deepest);
     } else {
         it.sentence = fmt::format("{} is split with {:.3f} px, {}; expected more than {:g} px", name,
                                   it.errorPx, frames, it.limitPx);

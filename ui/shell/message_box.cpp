@@ -60,8 +60,7 @@ FloatingLine floatingLine(const LineContent& content, const Rect& viewport, floa
     const ImVec2 size = ImGui::GetWindowSize();
     noteRect("Box", {at.x, at.y, size.x, size.y});
     const bool hovered = content.takesClicks && ImGui::IsWindowHovered();
-    if (hovered)
-        ImGui::SetTooltip("%s", withKey("Click to close this. The Log panel keeps it.", "panel_log").c_str());
+    if (hovered) ImGui::SetTooltip("Click to close this.");
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(2);

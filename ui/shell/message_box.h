@@ -24,11 +24,11 @@ struct Confirmation {
     double untilS = 0;  // in FramesView::timeS
 };
 
-// A warning or an error of the log that no message box shows.
+// A warning or an error that no message box shows: one of the log, or why a request is refused.
 struct Alert {
     LogLevel level = LogLevel::Warning;
     std::string text;
-    int count = 1;      // how often the log has it since it is shown
+    int count = 1;      // how often it came since it is shown
     double untilS = 0;  // in FramesView::timeS
 };
 

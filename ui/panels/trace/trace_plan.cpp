@@ -7,6 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "planet/trace/trace_quadtree.h"
 #include "ui/model/net_cells.h"
 
 namespace worldy::ui {
@@ -25,15 +26,6 @@ bool isSphere(const TracedFrame& frame) {
 
 bool hasQuadtreeIds(const TracedFrame& frame) {
     return frame.description && frame.description->ids == planet::TraceIds::Quadtree;
-}
-
-struct QuadtreeId {
-    std::uint32_t face, level, x, y;
-};
-QuadtreeId quadtreeId(std::uint64_t id) {
-    constexpr std::uint64_t coordinate = (std::uint64_t{1} << 28) - 1;
-    return {static_cast<std::uint32_t>(id >> 61), static_cast<std::uint32_t>(id >> 56 & 31),
-            static_cast<std::uint32_t>(id & coordinate), static_cast<std::uint32_t>(id >> 28 & coordinate)};
 }
 
 // Returns the places of a view's nodes, coarse ones first.
@@ -202,7 +194,7 @@ bool growsDown(const TracedFrame& frame, const TracedView& view) {
     for (const TracedNode& node : view.nodes) {
         const TraceBounds& bounds = node.node.bounds;
         if (bounds.shape == TraceBoundsShape::None || node.node.level == 0) continue;
-        const QuadtreeId id = quadtreeId(node.node.id);
+        const planet::TraceQuadtreePlace id = planet::traceQuadtreePlace(node.node.id);
         const double y = std::ldexp(id.y + 0.5, -static_cast<int>(id.level));
         const double down = isGlobe ? -mapPoint(bounds.centre).latitudeRad : fromAbove(bounds.centre, up).y;
         if (!std::isfinite(down)) continue;
@@ -218,7 +210,8 @@ bool growsDown(const TracedFrame& frame, const TracedView& view) {
 TracePlan netPlan(const TracedFrame& frame, const TracedView& view) {
     TracePlan plan;
     std::uint32_t faces = 1;
-    for (const TracedNode& node : view.nodes) faces = std::max(faces, quadtreeId(node.node.id).face + 1);
+    for (const TracedNode& node : view.nodes)
+        faces = std::max(faces, planet::traceQuadtreePlace(node.node.id).face + 1);
     const bool isCube = isSphere(frame) && faces > 2;
     if (isCube && faces > planet::faceCount) {
         plan.problem = "The ids name more than six faces. The map and the tree can show the nodes.";
@@ -227,7 +220,7 @@ TracePlan netPlan(const TracedFrame& frame, const TracedView& view) {
     plan.size = isCube ? netSize : PlanSize{static_cast<double>(faces), 1};
     const bool isDown = !isCube && growsDown(frame, view);
     for (const std::size_t place : coarseFirst(view)) {
-        const QuadtreeId id = quadtreeId(view.nodes[place].node.id);
+        const planet::TraceQuadtreePlace id = planet::traceQuadtreePlace(view.nodes[place].node.id);
         const double side = std::ldexp(1.0, -static_cast<int>(id.level));
         const NetCell cell = isCube ? netCells[id.face] : NetCell{static_cast<int>(id.face), 0};
         const double top = isDown ? id.y * side : 1 - (id.y + 1.0) * side;
