@@ -15,6 +15,7 @@
 #include "app/cli/trace_compare_text.h"
 #include "app/cli/trace_text.h"
 #include "app/cli/trace_what_if_text.h"
+#include "app/trace/trace_compare_job.h"
 
 namespace worldy {
 
@@ -320,23 +321,31 @@ bool holdAll(const std::vector<std::string>& broken) {
     return broken.empty();
 }
 
+// The limits apply to B and are told once, for the comparison.
+Json wholeJson(TraceCommandOptions options, const std::filesystem::path& file, const TraceReport& report) {
+    options.file = file;
+    Json json = traceJson(options, report);
+    json.erase("broken_limits");
+    return json;
+}
+
 Result<bool> runTraceCompare(const TraceCommandOptions& options) {
-    Result<planet::TraceFile> a = planet::TraceFile::open(options.file);
-    if (!a) return tl::unexpected(a.error());
-    Result<planet::TraceFile> b = planet::TraceFile::open(options.other);
-    if (!b) return tl::unexpected(b.error());
     const InterruptWatch watch;
-    const auto goOn = [&] { return !watch.interrupted(); };
-    const auto compared = planet::compareTraces(*a, *b, {.match = options.match}, goOn);
-    if (!compared) return tl::unexpected(compared.error());
-    const Result<TraceReport> report = planet::reportOfTrace(*b, options.budgetMs, options.faults, goOn);
-    if (!report) return tl::unexpected(report.error());
-    std::vector<std::string> broken = brokenLimits(options.limits, *report);
+    const Result<TraceCompared> both = compareTraceFiles({.fileA = options.file,
+                                                          .fileB = options.other,
+                                                          .match = options.match,
+                                                          .budgetMs = options.budgetMs,
+                                                          .faults = options.faults},
+                                                         [&](double) { return !watch.interrupted(); });
+    if (!both) return tl::unexpected(both.error());
+    const planet::TraceComparison* const compared = &both->found;
+    std::vector<std::string> broken = brokenLimits(options.limits, both->reportB);
     if (const auto sentence = brokenDiffering(options.limits.differing, *compared))
         broken.push_back(*sentence);
-    const std::array files = {options.file.string(), options.other.string()};
-    if (!options.report.json) printTraceComparison(files, *compared, options.worst);
-    Json json = traceComparisonJson(files, *compared);
+    if (!options.report.json) printTraceComparison(*both, options.worst);
+    Json json = traceComparisonJson(*both);
+    json["report_a"] = wholeJson(options, options.file, both->reportA);
+    json["report_b"] = wholeJson(options, options.other, both->reportB);
     json["broken_limits"] = broken;
     if (Result<void> written = writeReport(options.report, json); !written)
         return tl::unexpected(std::move(written).error());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "app/base/text.h"
@@ -44,6 +45,25 @@ void printTimes(const char* name, const planet::TraceSpread& a, const planet::Tr
                                            millisecondsText(ms.p99));
     };
     fmt::print("{:<10}A median {}; B median {}\n", name, text(a), text(b));
+}
+
+// Prints what the reports of the whole traces add: thrashes, faults and latencies.
+void printWholes(const TraceCompared& compared) {
+    const planet::TraceReport &a = compared.reportA, &b = compared.reportB;
+    const auto thrashes = [](const planet::TraceReport& report) {
+        std::uint64_t sum = 0;
+        for (const planet::TraceViewReport& view : report.views) sum += view.thrashes;
+        return sum;
+    };
+    fmt::print("{:<10}A {}; B {}\n", "faults", a.faults.size(), b.faults.size());
+    fmt::print("{:<10}A {}; B {}\n", "thrashes", thrashes(a), thrashes(b));
+    for (const auto& [side, report] : {std::pair("A", &a), std::pair("B", &b)})
+        for (const planet::TraceKindReport& kind : report->kinds)
+            if (kind.latencyS.count > 0)
+                fmt::print("{:<10}{} {}: median {}, 99 % at most {}\n", "latency", side,
+                           kind.name.empty() ? fmt::format("kind {}", kind.kind) : kind.name,
+                           millisecondsText(1000 * kind.latencyS.median),
+                           millisecondsText(1000 * kind.latencyS.p99));
 }
 
 void printDifference(const TraceComparison& found, const TraceFrameDifference& each) {
@@ -87,9 +107,11 @@ Json jsonOf(const TraceComparison& found, const TraceFrameDifference& each) {
 
 }  // namespace
 
-void printTraceComparison(const std::array<std::string, 2>& files, const TraceComparison& found, int worst) {
-    fmt::print("A {}\nB {}\n{} frames are in both, {} only in A, {} only in B\n", files[0], files[1],
-               found.frames, found.framesOnlyInA, found.framesOnlyInB);
+void printTraceComparison(const TraceCompared& compared, int worst) {
+    const TraceComparison& found = compared.found;
+    fmt::print("A {}\nB {}\n{} frames are in both, {} only in A, {} only in B\n",
+               compared.request.fileA.string(), compared.request.fileB.string(), found.frames,
+               found.framesOnlyInA, found.framesOnlyInB);
     const bool byTime = found.match == planet::TraceMatch::Time;
     if (found.frames == 0)
         fmt::print("No frame has the same {} in both. --match {} matches frames by their {}.\n",
@@ -98,6 +120,7 @@ void printTraceComparison(const std::array<std::string, 2>& files, const TraceCo
         fmt::print("{} frames lack events in one of the two, and are not compared\n", found.skippedFrames);
     printTimes("CPU time", found.cpuMsA, found.cpuMsB);
     printTimes("GPU time", found.gpuMsA, found.gpuMsB);
+    printWholes(compared);
     for (const planet::TraceViewComparison& view : found.views) {
         fmt::print("\n{:>8}{:>9}{:>10}{:>9}{:>12}{:>12}{:>9}{:>9}{:>10}{:>10}\n",
                    fmt::format("view {}", view.view), "frames", "drawn", "most", "triangles", "most",
@@ -127,9 +150,10 @@ void printTraceComparison(const std::array<std::string, 2>& files, const TraceCo
         for (const TraceFrameDifference* each : largest) printDifference(found, *each);
 }
 
-Json traceComparisonJson(const std::array<std::string, 2>& files, const TraceComparison& found) {
-    Json json = {{"file_a", files[0]},
-                 {"file_b", files[1]},
+Json traceComparisonJson(const TraceCompared& compared) {
+    const TraceComparison& found = compared.found;
+    Json json = {{"file_a", compared.request.fileA.string()},
+                 {"file_b", compared.request.fileB.string()},
                  {"frames", found.frames},
                  {"frames_only_in_a", found.framesOnlyInA},
                  {"frames_only_in_b", found.framesOnlyInB},

@@ -242,6 +242,8 @@ LastSession Editor::lastSession(const Session& session) const {
     if (files_.trace.document && !files_.trace.isLive) {
         last.trace = files_.trace.document->file();
         last.traceFrame = files_.trace.playback.frame;
+        const std::optional<TraceCompared>& compared = files_.trace.compare.result;
+        if (compared && compared->request.fileA == last.trace) last.traceB = compared->request.fileB;
     }
     if (open) {
         const DataSet& data = open->data;
@@ -263,6 +265,8 @@ void Editor::takeUpSession(const Session& session, ui::Commands& commands) {
     LastSession& last = files_.atStart;
     if (!last.trace.empty())
         commands.push_back(ui::OpenTrace{std::exchange(last.trace, {}), !last.file.empty(), last.traceFrame});
+    if (!last.traceB.empty())
+        commands.push_back(ui::StartTraceCompare{.fileB = std::exchange(last.traceB, {}), .isShown = false});
     if (!camera_.rig || !shownScene(session)) return;
     if (last.camera) commands.push_back(ui::MoveCamera{*std::exchange(last.camera, {})});
     const OpenPlanet& open = *shownPlanet(session);
@@ -457,6 +461,8 @@ void Editor::tellProblems(const Session& session) {
     tell(PanelId::Flight, "The recording was not saved", recording_.saveProblem);
     tell(PanelId::Sources, "The source cannot be read", bakes_.sources.reader.problem);
     tell(PanelId::Trace, "The trace has a fault", files_.trace.reported);
+    const TraceCompareRun& traces = files_.trace.compare;
+    tell(PanelId::TraceFindings, "The traces were not compared", traces.isCancelled ? "" : traces.problem);
 }
 
 void Editor::execute(const ui::Commands& commands, const Window& window, Session& session) {

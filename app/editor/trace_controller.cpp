@@ -161,6 +161,19 @@ std::optional<planet::CameraPose> poseOfTrace(const TraceController& controller,
     return isFinite ? std::optional(pose) : std::nullopt;
 }
 
+ui::TraceComparedView comparedViewOf(const TraceCompareRun& run) {
+    ui::TraceComparedView view{.runs = run.runs,
+                               .problem = run.problem,
+                               .fileB = run.request.fileB,
+                               .match = run.request.match,
+                               .result = run.result ? &*run.result : nullptr};
+    if (!run.job) return view;
+    view.running = true;
+    view.progress = run.job->progress();
+    view.cancelling = run.job->cancelling();
+    return view;
+}
+
 }  // namespace
 
 fs::path tracesFolder() {
@@ -194,6 +207,7 @@ Result<void> attachTrace(TraceController& controller, int port, const fs::path& 
 void advanceTrace(TraceController& controller, double secondsSinceLast, const Log& log) {
     followLink(controller, log);
     advanceTraceWhatIf(controller.whatIf, log);
+    advanceTraceCompare(controller.compare, log);
     if (!controller.document) return;
     play(controller, secondsSinceLast);
     controller.frame = controller.document->frame();
@@ -243,6 +257,18 @@ void execute(TraceController& controller, const ui::TraceCommand& command, Works
                                      notices.log);
             },
             [&](const ui::CancelTraceWhatIf&) { cancelTraceWhatIf(controller.whatIf); },
+            [&](const ui::StartTraceCompare& start) {
+                if (!controller.document) return;
+                const planet::TraceMatch match = start.match.value_or(controller.compare.request.match);
+                startTraceCompare(
+                    controller.compare,
+                    {.fileA = controller.document->file(), .fileB = start.fileB, .match = match},
+                    notices.log);
+                if (start.isShown) ui::showPanel(PanelId::TraceFindings, workspace);
+            },
+            [&](const ui::CancelTraceCompare&) {
+                if (controller.compare.job) controller.compare.job->cancel();
+            },
         },
         command);
 }
@@ -257,6 +283,7 @@ planet::Lines traceLinesOf(const TraceController& controller, double planetRadiu
 ui::TraceView traceViewOf(const TraceController& controller) {
     ui::TraceView view;
     view.whatIf = traceWhatIfViewOf(controller.whatIf);
+    view.compared = comparedViewOf(controller.compare);
     view.link.isOn = controller.link != nullptr;
     view.link.isReceiving = controller.isLive;
     view.link.message = controller.status.message;

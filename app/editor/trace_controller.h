@@ -9,6 +9,7 @@
 #include "app/editor/notices.h"
 #include "app/editor/trace_what_if.h"
 #include "app/settings/workspace.h"
+#include "app/trace/trace_compare_job.h"
 #include "app/trace/trace_document.h"
 #include "app/trace/trace_lines.h"
 #include "planet/trace/trace_link.h"
@@ -40,6 +41,7 @@ struct TraceController {
     std::shared_ptr<const TraceHistory> history{};
     std::string reported{};  // the problem that was logged
     TraceWhatIfRun whatIf{};
+    TraceCompareRun compare{};
 };
 
 // Returns the folder of the traces of running engines.

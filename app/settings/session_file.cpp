@@ -123,17 +123,20 @@ Result<void> readEntry(const fs::path& file, std::string_view key, const toml::n
         return {};
     }
     if (key == "source") return readSource(file, node, session.sourceSettings);
-    if (key != "file" && key != "bake" && key != "trace" && key != "colour") {
+    if (key != "file" && key != "bake" && key != "trace" && key != "trace_b" && key != "colour") {
         return wrong(file, node,
                      fmt::format("{} is unknown; expected file, bake, colour, camera, trace, trace_frame, "
-                                 "ruler, source or compare",
+                                 "trace_b, ruler, source or compare",
                                  key));
     }
     TRY_ASSIGN(const std::string text, readText(file, key, node));
     if (key == "colour")
         session.colour = text;
     else
-        (key == "file" ? session.file : key == "bake" ? session.bake : session.trace) = text;
+        (key == "file"      ? session.file
+         : key == "bake"    ? session.bake
+         : key == "trace_b" ? session.traceB
+                            : session.trace) = text;
     return {};
 }
 
@@ -197,6 +200,7 @@ std::string lastSessionText(const LastSession& session) {
     if (session.camera) text += line("camera", cameraText(*session.camera));
     if (!session.trace.empty()) text += line("trace", session.trace.string());
     if (session.traceFrame > 0) text += fmt::format("trace_frame = {}\n", session.traceFrame);
+    if (!session.traceB.empty()) text += line("trace_b", session.traceB.string());
     std::vector<std::string> ends;
     for (const planet::CameraPose& end : session.ruler)
         ends.push_back(fmt::format("{},{},{}", end.latitudeDeg, end.longitudeDeg, end.altitudeM));

@@ -6,6 +6,7 @@
 //     camera = "46.4,6.9,6000,180,-10"              # latitude, longitude, altitude in metres, heading, pitch
 //     trace = "/traces/engine.lodtrace"             # the open trace
 //     trace_frame = 198                             # that was shown
+//     trace_b = "/traces/after.lodtrace"            # the trace that it was compared with
 //     ruler = ["46.4,6.9,410", "46.5,7.1,2200"]     # the ends: latitude, longitude, altitude in metres
 //     [source]                                      # how the source is read, where it is not the default: the names
 //     metres_per_unit = 0.3048                      # of the command line's options
@@ -40,8 +41,9 @@ struct LastSession {
     planet::HeightSourceSettings sourceSettings{};
     std::optional<std::filesystem::path> colour{};  // not given: the image beside the source
     std::optional<planet::CameraPose> camera{};
-    std::filesystem::path trace{};  // empty: none
-    std::uint64_t traceFrame = 0;   // that was shown; 0: not known
+    std::filesystem::path trace{};   // empty: none
+    std::uint64_t traceFrame = 0;    // that was shown; 0: not known
+    std::filesystem::path traceB{};  // that the trace was compared with; empty: none
     std::vector<planet::CameraPose>
         ruler{};  // the places of its ends, at most two; their directions mean nothing
     std::optional<LastComparison> compare{};

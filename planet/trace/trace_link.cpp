@@ -462,13 +462,28 @@ std::optional<Descriptor> TraceLink::State::connectToEngine() {
     return socket;
 }
 
+// Takes what the system has received already, up to a limit, as the engine may go on sending.
+void takeTheRest(const Descriptor& socket, Reception& reception, std::span<std::byte> buffer) {
+    constexpr int most = 64;
+    for (int i = 0; i < most; ++i) {
+        const ssize_t count = ::recv(socket.number(), buffer.data(), buffer.size(), 0);
+        if (count <= 0) break;
+        if (!reception.feed(buffer.first(static_cast<std::size_t>(count)))) return;
+    }
+    reception.finish();
+}
+
 Next TraceLink::State::receive(const Descriptor& socket) {
     Reception reception(settings, address, number);
     std::vector<std::byte> bytes(receivedAtOnce);
     for (;;) {
         const Woken woken =
             waitFor(socket.number(), POLLIN, stopPipe, reception.hasFile() ? forever : settings.silentAfter);
-        if (woken == Woken::Stopped) return Next::End;
+        if (woken == Woken::Stopped) {
+            takeTheRest(socket, reception, bytes);
+            publish(reception);
+            return Next::End;
+        }
         if (woken == Woken::Late) {
             noteVerdictIsLate();
             continue;

@@ -65,7 +65,7 @@ struct TraceLinkStatus {
 // connection gets a new file, NAME.lodtrace, NAME-2.lodtrace, and so on. No file is ever replaced, and bytes that are no trace
 // leave none. Blocks are checked as a TraceReader does, and a block is written as soon as it is whole and valid: TraceFile
 // can open the file and refresh while it grows, and whatever ends this process leaves a valid file. If the engine
-// leaves inside a block, the file ends there too, and TraceFile::nextCut() reads its events. If a stream is damaged, what came
+// leaves or the link is stopped inside a block, the file ends there too, and TraceFile::nextCut() reads its events. If a stream is damaged, what came
 // before stays. The engine takes one tool at a time, so two links to one port cannot both receive.
 class TraceLink {
 public:
@@ -75,8 +75,8 @@ public:
     TraceLink& operator=(const TraceLink&) = delete;
     ~TraceLink();  // stops
 
-    // Closes the connection and ends the thread. It waits for nothing but a block that is being written; one that came only in
-    // part is discarded. Any thread.
+    // Closes the connection and ends the thread. What has arrived goes to the file, also the events of an unfinished block.
+    // It waits for nothing but the file. Any thread.
     void stop();
 
     // Return how it stands at this moment. Any thread.

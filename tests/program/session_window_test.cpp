@@ -4,6 +4,7 @@
 
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/support/small_trace.h"
 
 namespace worldy {
 namespace {
@@ -40,6 +41,20 @@ rounded() { tr , "\n" | xargs printf "%.3f " | sed "s,-\(0\.000\),\1,g"; }
 is_there() { [ "$(counter camera | rounded)" = "$(rounded <last_camera)" ]; }
 expect is_there || echo "the camera is at $(counter camera), not at $(cat last_camera)"
 expect counts compared -eq 1
+)sh");
+}
+
+TEST_F(SessionWindowTest, tracesAreComparedAgain) {
+    test::writeSmallTrace(folder / "flight.lodtrace");
+    test::writeSmallTrace(folder / "later.lodtrace", test::smallTraceFrames,
+                          {.rootFrame = 50, .rootFrames = 5});
+    drive("planet.chk", R"sh(
+key ctrl+o; enter open/Path flight.lodtrace; until_true shown trace/Timeline || echo "there is no trace"
+click "trace/Compare with..."; enter open/Path later.lodtrace
+until_true says "Compared 60 frames, 5 differ" || echo "the traces are not compared"
+)sh");
+    drive("", R"sh(
+until_true says "Compared 60 frames, 5 differ" || echo "the comparison is forgotten"
 )sh");
 }
 

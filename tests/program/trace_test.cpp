@@ -157,6 +157,11 @@ TEST_F(TraceCommand, comparesTwoTracesOfAFlight) {
     EXPECT_EQ(found["frames"], 40);
     EXPECT_GT(found["frames_that_differ"], 0);
     EXPECT_GT(found["view"][0]["a"]["max_triangles"], found["view"][0]["b"]["max_triangles"]);
+    EXPECT_EQ(found["report_a"]["file"], "down.lodtrace");
+    EXPECT_EQ(found["report_b"]["file"], "coarse.lodtrace");
+    EXPECT_TRUE(found["report_b"]["view"][0].contains("thrashes"));
+    EXPECT_GT(found["report_a"]["paging"][0]["latency_ms"]["count"],
+              found["report_b"]["paging"][0]["latency_ms"]["count"]);
     const Ran limited = runWorldy(folder_, "trace down.lodtrace coarse.lodtrace --max-differing 0");
     EXPECT_EQ(limited.exitCode, 1);
     EXPECT_THAT(limited.errors, HasSubstr("expected at most 0"));

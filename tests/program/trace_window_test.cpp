@@ -47,6 +47,29 @@ until_true hidden trace/Timeline || echo 'the trace stays open'
     EXPECT_NE(ran.errors.find("flight.lodtrace opened"), std::string::npos) << ran.errors;
 }
 
+TEST_F(TraceWindow, ASecondTraceIsComparedFrameByFrame) {
+    test::writeSmallTrace(folder.path() / "flight.lodtrace");
+    test::writeSmallTrace(folder.path() / "later.lodtrace", test::smallTraceFrames,
+                          {.rootFrame = 50, .rootFrames = 5});
+    const Ran ran = runInWindow(folder, "flight.lodtrace", R"sh(
+until_true shown trace/Timeline || echo 'there is no timeline'
+click 'trace/Compare with...'
+enter open/Path later.lodtrace
+until_true shown 'trace_findings/Differing frame 4' || echo 'the differing frames are not shown'
+click 'trace_findings/Differing frame 2'
+until_true shown trace_findings/1/1/0 || echo 'the nodes that differ are not shown'
+click trace_findings/1/1/0
+until_true shown trace_node/Parent || echo 'the node is not selected'
+click 'trace_findings/Compare with...'
+enter open/Path planet.chk
+until_true says 'planet.chk: .* no trace' || echo 'another file is not refused'
+)sh",
+                                usualScreen);
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "");
+    EXPECT_NE(ran.errors.find("Compared 60 frames, 5 differ"), std::string::npos) << ran.errors;
+}
+
 TEST_F(TraceWindow, ADroppedFileIsOpened) {
     test::writeSmallTrace(folder.path() / "flight.lodtrace");
     const Ran ran = runInWindow(folder, "", R"sh(

@@ -62,8 +62,15 @@ inline void tellView(lod_trace* trace, double height) {
 
 }  // namespace detail
 
+// How a small trace differs from the one above.
+struct SmallTraceChange {
+    std::uint64_t rootFrame = 0, rootFrames = 0;  // draws only the root in so many frames from this one on
+    double timeOffsetS = 0;
+};
+
 // Writes the trace. frames: of the 60, so many.
-inline void writeSmallTrace(const std::filesystem::path& file, std::uint64_t frames = smallTraceFrames) {
+inline void writeSmallTrace(const std::filesystem::path& file, std::uint64_t frames = smallTraceFrames,
+                            const SmallTraceChange& change = {}) {
     std::array<char, 512> error{};
     lod_trace* const trace = lod_trace_open(file.string().c_str(), nullptr, error.data(), error.size());
     if (!trace) throw std::runtime_error(error.data());
@@ -79,10 +86,12 @@ inline void writeSmallTrace(const std::filesystem::path& file, std::uint64_t fra
     lod_trace_requested(trace, smallTraceId(0, 0, 0), 0, 9);
     lod_trace_arrived(trace, smallTraceId(0, 0, 0), 0);
     for (std::uint64_t frame = 1; frame <= frames; ++frame) {
-        lod_trace_frame_begin(trace, 0.1 * static_cast<double>(frame));
+        lod_trace_frame_begin(trace, 0.1 * static_cast<double>(frame) + change.timeOffsetS);
         // The root's error is 800 / height px: 2 px at 400. That of a child is 400 / height px.
         detail::tellView(trace, frame <= 10 ? 500 : frame <= 40 ? 300 : 150);
-        const unsigned level = frame <= 20 ? 0 : frame <= 40 ? 1 : 2;
+        const bool isRoot =
+            frame <= 20 || (frame >= change.rootFrame && frame < change.rootFrame + change.rootFrames);
+        const unsigned level = isRoot ? 0 : frame <= 40 ? 1 : 2;
         for (unsigned i = 0; i < 4; ++i) {
             if (frame == 11)
                 lod_trace_requested(trace, smallTraceId(1, i % 2, i / 2), 0, static_cast<float>(i));

@@ -26,6 +26,7 @@
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/view.h"
+#include "planet/trace/trace_compare.h"
 #include "ui/model/layout.h"
 #include "ui/model/replay_controls.h"
 
@@ -120,7 +121,7 @@ using FrameCommand = std::variant<PauseFrames, StepFrame, DrawAtFullSpeed, Recor
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot
     std::filesystem::path file;
 };
-enum class FilePurpose : std::uint8_t { Open, BakedColours, SideB };
+enum class FilePurpose : std::uint8_t { Open, BakedColours, SideB, TraceB };
 struct AskForFile {  // shows the dialog that asks for a file
     FilePurpose purpose = FilePurpose::Open;
 };
@@ -356,9 +357,15 @@ struct StartTraceWhatIf {  // over the whole trace, in the background
     TraceWhatIfRequest request;
 };
 struct CancelTraceWhatIf {};
+struct StartTraceCompare {  // of the open trace, A, with another one, in the background
+    std::filesystem::path fileB;
+    std::optional<planet::TraceMatch> match{};  // of frames; none: as the last time
+    bool isShown = true;                        // the panel with the result comes to the front
+};
+struct CancelTraceCompare {};
 using TraceCommand = std::variant<OpenTrace, AttachTrace, DetachTrace, CloseTrace, ShowTraceFrame, StepTrace,
                                   PlayTrace, SelectTraceNode, SelectTraceView, ShowTraceOnPlanet, LookAsTrace,
-                                  StartTraceWhatIf, CancelTraceWhatIf>;
+                                  StartTraceWhatIf, CancelTraceWhatIf, StartTraceCompare, CancelTraceCompare>;
 
 // Notes on the planet.
 struct AddNote {

@@ -9,6 +9,7 @@
 
 #include "app/trace/trace_history.h"
 #include "app/trace/traced_frame.h"
+#include "ui/model/trace_compared_view.h"
 #include "ui/model/trace_what_if_view.h"
 
 namespace worldy::ui {
@@ -38,6 +39,7 @@ struct TraceView {
     bool hasPlace = false;  // on a planet: its world is a sphere
     bool onPlanet = true;   // its nodes are drawn over the open planet
     TraceWhatIfView whatIf{};
+    TraceComparedView compared{};
 };
 
 }  // namespace worldy::ui

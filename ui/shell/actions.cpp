@@ -71,6 +71,16 @@ void addFile(List& list) {
                     .help = "Shows the Trace panel, which attaches to a running engine.",
                     .menu = Menu::File,
                     .act = [](const Context& c) { showPanel(PanelId::Trace, c.workspace); }});
+    list.push_back({.id = "compare_trace",
+                    .name = "Compare the trace with...",
+                    .help = "Asks for a second trace of the same flight, and compares the open trace with it "
+                            "frame by frame.",
+                    .menu = Menu::File,
+                    .act = sends(AskForFile{FilePurpose::TraceB}),
+                    .whyNot = [](const Context& c) {
+                        if (c.view.trace.file.empty()) return std::string("No trace is open.");
+                        return unless(!c.view.trace.compared.running, "A comparison is running.");
+                    }});
     list.push_back(
         {.id = "resume",
          .name = "Go on with the last session",

@@ -103,6 +103,9 @@ bool accept(OpenDialogState& state, Commands& commands) {
         case FilePurpose::SideB:
             commands.push_back(StartCompare{StartCompare::With::File, {}, path});
             break;
+        case FilePurpose::TraceB:
+            commands.push_back(StartTraceCompare{path});
+            break;
     }
     return true;
 }
@@ -112,19 +115,23 @@ struct DialogTexts {
     const char* title;
     const char* hint;
     const char* accept;
+    const char* empty = "This folder contains no file that Worldy can open.";
 };
 DialogTexts textsFor(FilePurpose purpose) {
     if (purpose == FilePurpose::BakedColours)
         return {"Choose a colour image", "Path of a colour image or of one of six faces", "Choose"};
     if (purpose == FilePurpose::SideB)
         return {"Choose a planet as B", "Path of a chunk file or of a source that is baked", "Choose"};
+    if (purpose == FilePurpose::TraceB)
+        return {"Choose a trace as B", "Path of a second trace of the same flight", "Compare",
+                "This folder contains no trace (.lodtrace)."};
     return {"Open a file", "Path of a chunk file, an elevation image or raster, a world file or a cube face",
             "Open"};
 }
 
 }  // namespace
 
-bool mayBeOpened(const fs::path& file) {
+bool mayBeOpened(const fs::path& file, FilePurpose purpose) {
     static constexpr std::array endings = std::to_array<std::string_view>(
         {".chk", ".tif", ".tiff", ".hgt", ".dt0",  ".dt1",      ".dt2",
          ".asc", ".nc",  ".jp2",  ".img", ".bil",  ".png",      ".pgm",
@@ -132,6 +139,7 @@ bool mayBeOpened(const fs::path& file) {
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    if (purpose == FilePurpose::TraceB) return ending == ".lodtrace";
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
@@ -147,7 +155,7 @@ void listFolder(const fs::path& folder, OpenDialogState& state) {
         const fs::path path = files->path();
         if (path.filename().string().starts_with('.')) continue;
         const bool isFolder = files->is_directory(status);
-        if (!isFolder && !mayBeOpened(path)) continue;
+        if (!isFolder && !mayBeOpened(path, state.purpose)) continue;
         const std::uintmax_t size = isFolder ? 0 : files->file_size(status);
         state.entries.push_back({path, isFolder, status ? 0 : static_cast<double>(size)});
     }
@@ -179,7 +187,7 @@ void openDialog(OpenDialogState& state, Commands& commands) {
     if (!state.problem.empty())
         ImGui::TextColored(palette().bad, "%s", state.problem.c_str());
     else if (state.entries.empty())
-        ImGui::TextDisabled("This folder contains no file that Worldy can open.");
+        ImGui::TextDisabled("%s", texts.empty);
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     accepted |=

@@ -25,13 +25,13 @@ struct OpenDialogState {
     std::array<char, 1024> path{};
 };
 
-// Returns true for the endings of files that Worldy may open: chunk files, images, raw faces, presets.
-bool mayBeOpened(const std::filesystem::path& file);
+// Returns true for the endings of files that Worldy may open for the purpose, such as chunk files, images and traces.
+bool mayBeOpened(const std::filesystem::path& file, FilePurpose purpose);
 
 // Sets the dialog's folder and its entries, without hidden files.
 void listFolder(const std::filesystem::path& folder, OpenDialogState& state);
 
-// Call every frame. Appends OpenFile, ChooseColourImage or StartCompare, by the purpose.
+// Call every frame. Appends OpenFile, ChooseColourImage, StartCompare or StartTraceCompare, by the purpose.
 void openDialog(OpenDialogState& state, Commands& commands);
 
 }  // namespace worldy::ui

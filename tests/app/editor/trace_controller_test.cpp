@@ -147,5 +147,28 @@ TEST_F(TraceControllers, whatIfRunsOverTheOpenTrace) {
     EXPECT_TRUE(advanceUntil([&] { return traceViewOf(controller_).whatIf.result != nullptr; }));
 }
 
+TEST_F(TraceControllers, aSecondTraceIsComparedWithTheOpenOne) {
+    const fs::path other = folder_.path() / "other.lodtrace";
+    test::writeSmallTrace(other, 40);
+    send(ui::StartTraceCompare{other});
+    EXPECT_FALSE(traceViewOf(controller_).compared.running);
+    open();
+    workspace_ = {};
+    send(ui::StartTraceCompare{other, planet::TraceMatch::Number});
+    EXPECT_TRUE(isShown(workspace_, PanelId::TraceFindings));
+    ASSERT_TRUE(advanceUntil([&] { return traceViewOf(controller_).compared.result != nullptr; }));
+    const ui::TraceComparedView view = traceViewOf(controller_).compared;
+    EXPECT_FALSE(view.running);
+    EXPECT_EQ(view.problem, "");
+    EXPECT_EQ(view.result->found.frames, 40u);
+    EXPECT_EQ(view.match, planet::TraceMatch::Number);
+
+    send(ui::StartTraceCompare{folder_.path() / "missing.lodtrace"});
+    ASSERT_TRUE(advanceUntil([&] { return !traceViewOf(controller_).compared.running; }));
+    EXPECT_NE(traceViewOf(controller_).compared.problem.find("missing.lodtrace"), std::string::npos);
+    EXPECT_NE(traceViewOf(controller_).compared.result, nullptr);
+    EXPECT_EQ(traceViewOf(controller_).compared.match, planet::TraceMatch::Number);
+}
+
 }  // namespace
 }  // namespace worldy

@@ -34,6 +34,7 @@ TEST_F(SessionFile, isReadAsItWasWritten) {
                         .camera = planet::CameraPose{46.25, -6.5, 6000.125, 180, -10.5},
                         .trace = "/t.lodtrace",
                         .traceFrame = 198,
+                        .traceB = "/after.lodtrace",
                         .ruler = {{46.5, -7, 410.25}, {46.75, -7.125, -12}},
                         .compare = LastComparison{}};
     session.compare->file = "/b's.chk";
@@ -47,6 +48,7 @@ TEST_F(SessionFile, isReadAsItWasWritten) {
     EXPECT_EQ(read->colour, session.colour);
     EXPECT_EQ(read->trace, session.trace);
     EXPECT_EQ(read->traceFrame, session.traceFrame);
+    EXPECT_EQ(read->traceB, session.traceB);
     ASSERT_TRUE(read->camera);
     EXPECT_EQ(read->camera->latitudeDeg, 46.25);
     EXPECT_EQ(read->camera->altitudeM, 6000.125);
@@ -100,7 +102,7 @@ TEST_F(SessionFile, isRefusedWithItsLineIfItIsWrong) {
     EXPECT_THAT(problemOf("file = 'a.tif'\nfiles = 'b.tif'\n"),
                 AllOf(HasSubstr("session.toml: line 2"),
                       HasSubstr("files is unknown; expected file, bake, colour, camera, trace, trace_frame, "
-                                "ruler, source or compare")));
+                                "trace_b, ruler, source or compare")));
     EXPECT_THAT(problemOf("\nfile = 3\n"), HasSubstr("session.toml: line 2"));
     EXPECT_THAT(problemOf("bake = ['a']\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("bake")));
     EXPECT_THAT(problemOf("camera = '1,2'\n"), AllOf(HasSubstr("session.toml: line 1"), HasSubstr("camera")));

@@ -655,6 +655,19 @@ TEST_F(TraceLinks, aStreamThatIsCutOffInItsFirstBlockIsKept) {
     EXPECT_EQ(link->status().file.frames, 10u);
 }
 
+TEST_F(TraceLinks, aLinkThatIsStoppedInsideABlockKeepsAllThatCame) {
+    const TraceBytes sent = traceOf(1000);
+    const std::size_t whole = blocksOf(sent).at(2).offset;
+    Listener engine;
+    const auto link = linkTo(engine.port());
+    engine.answer();
+    engine.say(std::span(sent).first(whole + 2000));
+    ASSERT_TRUE(holdsSoon([&] { return link->status().file.bytes == whole; }));
+    link->stop();
+    EXPECT_EQ(link->status().file.bytes, whole + 2000);
+    EXPECT_EQ(contentOf(folder / "live.lodtrace"), textOf(sent).substr(0, whole + 2000));
+}
+
 TEST_F(TraceLinks, aDamagedStreamKeepsWhatCameBeforeAndConnectsAgain) {
     const TraceBytes sent = traceOf(1000);
     const std::vector<TraceBlock> blocks = blocksOf(sent);

@@ -11,7 +11,13 @@ namespace {
 TEST(OpenDialog, listsRecordedFlights) {
     const std::filesystem::path flight = std::string("canyon") + recordedFlightEnding;
     EXPECT_TRUE(worldy::isFlightRecord(flight));
-    EXPECT_TRUE(mayBeOpened(flight));
+    EXPECT_TRUE(mayBeOpened(flight, FilePurpose::Open));
+}
+
+TEST(OpenDialog, listsOnlyTracesForATrace) {
+    EXPECT_TRUE(mayBeOpened("engine.LODTRACE", FilePurpose::TraceB));
+    EXPECT_FALSE(mayBeOpened("planet.chk", FilePurpose::TraceB));
+    EXPECT_TRUE(mayBeOpened("planet.chk", FilePurpose::Open));
 }
 
 }  // namespace

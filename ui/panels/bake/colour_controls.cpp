@@ -7,6 +7,7 @@
 
 #include "app/data/own_colour.h"
 #include "planet/source/height_source.h"
+#include "planet/source/terrain.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "app/base/text.h"
 #include "ui/kit/filter_box.h"
@@ -243,6 +244,23 @@ void switches(const EditorView& view, TraceFindingsPanelState& state, Commands& 
          {"cause", [](const Switch& one) { return planet::traceSwitchCauseName(one.cause); }}}));
 }
 
+// ---- the comparison with another trace ----
+
+void comparedTab(const EditorView& view, TraceComparedState& state, Commands& commands) {
+    // A short comparison ends before a frame shows it as running.
+    const int runs = view.trace.compared.runs;
+    const bool begins = std::exchange(state.runs, runs) != runs && runs > 0;
+    const TraceCompared* const result = traceComparedOf(view);
+    const std::string label = result ? fmt::format("Compared ({})###compared", result->found.framesThatDiffer)
+                                     : std::string("Compared###compared");
+    const bool isOpen = ImGui::BeginTabItem(label.c_str(), nullptr,
+                                            begins ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);
+    noteItem("Compared");
+    if (!isOpen) return;
+    traceCompared(view, state, commands);
+    ImGui::EndTabItem();
+}
+
 }  // namespace
 
 void traceFindingsPanel(const EditorView& view, TraceFindingsPanelState& state, Commands& commands) {
@@ -260,6 +278,7 @@ void traceFindingsPanel(const EditorView& view, TraceFindingsPanelState& state, 
         ImGui::EndTabItem();
     }
     noteItem("Switches");
+    comparedTab(view, state.compared, commands);
     ImGui::EndTabBar();
 }
 

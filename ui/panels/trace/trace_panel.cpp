@@ -12,6 +12,7 @@
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
+#include "ui/panels/trace/trace_compared.h"
 #include "ui/panels/trace/trace_links.h"
 
 namespace worldy::ui {
@@ -50,6 +51,8 @@ void sourceRow(const EditorView& view, TracePanelState& state, Commands& command
     if (view.trace.file.empty()) return;
     sameLineForButton("Close");
     if (button("Close", "Closes the trace.")) commands.push_back(CloseTrace{});
+    sameLineForButton("Compare with...");
+    traceCompareButton(view, commands);
 }
 
 void messages(const EditorView& view) {

@@ -18,6 +18,7 @@
 #include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 #include "ui/model/font_symbols.h"
+#include "ui/panels/trace/trace_compared.h"
 
 namespace worldy::ui {
 
@@ -175,6 +176,21 @@ void drawStarvations(ImDrawList& list, const EditorView& view, const Axis& axis,
     }
 }
 
+// Marks the frames in which the open trace draws other nodes than the one that it is compared with.
+void drawDifferences(ImDrawList& list, const EditorView& view, const Axis& axis, float y, float height) {
+    const TraceCompared* const compared = traceComparedOf(view);
+    if (!compared) return;
+    for (const planet::TraceFrameDifference& each : compared->found.differences) {
+        const bool isInView = each.timeS >= axis.fromS && each.timeS <= axis.toS;  // false if it is no number
+        if (each.view != view.trace.view || !isInView) continue;
+        const std::size_t next = axis.sampleAt(each.timeS) + 1;
+        const double untilS = next < axis.samples.size() ? axis.samples[next].timeS : each.timeS;
+        const float from = axis.at(each.timeS);
+        const float to = std::min(std::max(axis.at(untilS), from + 1), axis.x + axis.width);
+        list.AddRectFilled({from, y}, {to, y + height}, packed(palette().warning));
+    }
+}
+
 // held: the share of the trace that stays where it is. At least two samples stay in view.
 void zoomAbout(double held, double steps, std::size_t samples, TraceTimelineState& state) {
     const double factor = std::pow(1 / 1.35, steps);
@@ -200,7 +216,8 @@ void keyboard(const Axis& axis, std::size_t at, TraceTimelineState& state, Comma
     state.to = state.from + 2 * half;
 }
 
-void mouse(const Axis& axis, double beginS, double endS, TraceTimelineState& state, Commands& commands) {
+void mouse(const Axis& axis, double beginS, double endS, bool isCompared, TraceTimelineState& state,
+           Commands& commands) {
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsItemActive() && !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         const std::size_t sample =
@@ -224,8 +241,11 @@ void mouse(const Axis& axis, double beginS, double endS, TraceTimelineState& sta
     const std::size_t sample = axis.sampleAt(axis.timeAt(io.MousePos.x));
     tooltip(fmt::format("frame {}, {:.3f} s\nDrag to move through the trace. The wheel zooms, the right "
                         "button moves; double-clicking it shows everything.\nWith the focus: Left, Right, "
-                        "PageUp, PageDown, Home, End show other frames; Up, Down, + and - zoom.",
-                        axis.samples[sample].frame, axis.samples[sample].timeS)
+                        "PageUp, PageDown, Home, End show other frames; Up, Down, + and - zoom.{}",
+                        axis.samples[sample].frame, axis.samples[sample].timeS,
+                        isCompared ? "\nThe marks along the lower edge are frames in which the other trace "
+                                     "draws other nodes."
+                                   : "")
                 .c_str());
 }
 
@@ -271,7 +291,7 @@ void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& 
     exportPlot("timeline", samplesOf(history->samples, strips), false);
     const Axis axis{history->samples, beginS + state.from * (endS - beginS),
                     beginS + state.to * (endS - beginS), corner.x, size.x};
-    mouse(axis, beginS, endS, state, commands);
+    mouse(axis, beginS, endS, traceComparedOf(view) != nullptr, state, commands);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const std::uint64_t number = view.trace.frame ? view.trace.frame->frame.number : 0;
     const auto after = std::ranges::upper_bound(history->samples, number, {}, &TracedSample::frame);
@@ -298,6 +318,8 @@ void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& 
         ImGui::PopClipRect();
         y += height + gap;
     }
+    const float mark = std::round(0.3f * font);
+    drawDifferences(list, view, axis, y - gap - mark, mark);
     const float x = axis.at(shownS);
     if (x >= corner.x && x <= corner.x + size.x)
         list.AddLine({x, corner.y}, {x, y - gap}, packed(palette().warning), 1.4f * font / 13);

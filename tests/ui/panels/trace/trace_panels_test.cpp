@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstring>
 #include <optional>
 #include <thread>
 
+#include "app/trace/trace_compare_job.h"
 #include "app/trace/trace_document.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/small_trace.h"
@@ -52,10 +54,10 @@ protected:
             window_.frame([&] { drawPanel(panel, view(), states_, settings_, commands); });
         return commands;
     }
-    Commands click(PanelId panel, const char* item) {
+    Commands click(PanelId panel, const char* item, float share = 0.5f) {
         draw(panel);
         Commands commands;
-        window_.click(item, 0.5f, [&] {
+        window_.click(item, share, [&] {
             window_.frame([&] { drawPanel(panel, view(), states_, settings_, commands); });
         });
         return commands;
@@ -195,6 +197,63 @@ TEST_F(TracePanels, theWorstNodeIsAClickAway) {
               smallTraceId(0, 0, 0));
     EXPECT_EQ(find<SelectTraceNode>(click(PanelId::TraceNode, "Parent")).value_or(SelectTraceNode{}).id,
               smallTraceId(0, 0, 0));
+}
+
+TEST_F(TracePanels, compareWithAsksForTheSecondTrace) {
+    EXPECT_EQ(find<AskForFile>(click(PanelId::Trace, "Compare with...")).value_or(AskForFile{}).purpose,
+              FilePurpose::TraceB);
+    trace_.compared.running = true;
+    EXPECT_FALSE(find<AskForFile>(click(PanelId::Trace, "Compare with...")));
+}
+
+TEST_F(TracePanels, aRunningComparisonIsShownAndCancelled) {
+    trace_.compared.running = true;
+    trace_.compared.runs = 1;
+    EXPECT_TRUE(find<CancelTraceCompare>(click(PanelId::TraceFindings, "Cancel")));
+}
+
+TEST_F(TracePanels, aDifferingFrameAndItsNodesAreAClickAway) {
+    const std::filesystem::path other = folder_ / "other.lodtrace";
+    test::writeSmallTrace(other, test::smallTraceFrames, {.rootFrame = 50, .rootFrames = 5});
+    const TraceCompared compared = compareTraceFiles({.fileA = file_, .fileB = other}, {}).value();
+    trace_.compared.result = &compared;
+    trace_.compared.fileB = other;
+    click(PanelId::TraceFindings, "Compared");
+    EXPECT_FALSE(window_.isShown("Differing frame 5"));
+    // The middle of the row is the border between two columns, which can be dragged.
+    const Commands commands = click(PanelId::TraceFindings, "Differing frame 2", 0.1f);
+    EXPECT_EQ(find<ShowTraceFrame>(commands).value_or(ShowTraceFrame{}).frame, 52u);
+    ASSERT_TRUE(find<SelectTraceView>(commands));
+
+    const std::string root = tracedName(compared.found.descriptionB, smallTraceId(0, 0, 0));
+    draw(PanelId::TraceFindings);
+    EXPECT_FALSE(window_.isShown(root));
+    show(52);
+    EXPECT_EQ(
+        find<SelectTraceNode>(click(PanelId::TraceFindings, root.c_str())).value_or(SelectTraceNode{}).id,
+        smallTraceId(0, 0, 0));
+
+    const auto again = find<StartTraceCompare>(click(PanelId::TraceFindings, "Compare again"));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->fileB, other);
+    std::strcpy(states_.traceFindings.compared.filter.text.data(), "53");
+    draw(PanelId::TraceFindings);
+    EXPECT_TRUE(window_.isShown("Differing frame 0"));
+    EXPECT_FALSE(window_.isShown("Differing frame 1"));
+    // The timeline has a mark of four vertices for each of the five frames.
+    const auto vertices = [&] {
+        draw(PanelId::Trace);
+        return ImGui::GetDrawData()->TotalVtxCount;
+    };
+    const int marked = vertices();
+    trace_.compared.result = nullptr;
+    EXPECT_EQ(marked - vertices(), 5 * 4);
+    // The result of another trace is not shown.
+    TraceCompared foreign = compared;
+    foreign.request.fileA = other;
+    trace_.compared.result = &foreign;
+    draw(PanelId::TraceFindings);
+    EXPECT_FALSE(window_.isShown("Differing frame 0"));
 }
 
 }  // namespace
