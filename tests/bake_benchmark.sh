@@ -62,7 +62,7 @@ for latitude in $(seq 20 44); do
             "$work/tiles/N${latitude}E${longitude}.tif"
     done
 done
-for cells in 8192 65536; do
+for cells in 1024 8192 65536; do
     "$worldy" bake "$work/tiles/*.tif" --face-size $((cells + 1)) --threads "$threads" -o "$work/tiles.chk" \
         --overwrite --json >"$work/tiles.json" 2>/dev/null
     python3 - "$work/tiles.json" <<'PYTHON'

@@ -146,11 +146,18 @@ BlockSurvey surveyBlock(const GridRect& rect, std::span<const float> heights) {
 // Returns the squares of a level that cells touch, ascending.
 std::vector<std::uint64_t> squaresOf(const RasterMosaic& mosaic, std::span<const SurveyCell> cells,
                                      int level) {
-    Lattice lattice;
-    for (const SurveyCell& cell : cells) lattice.add(sharedBy(rectOf(cell), mosaic.bounds()), latticeSamples);
+    constexpr std::size_t cellsAtOnce = 1024;  // a cell takes up to 2 KB
     std::vector<std::uint64_t> squares;
-    for (const glm::dvec3& direction : lattice.directions(mosaic.placement()))
-        squares.push_back(squareAt(direction, level));
+    for (std::size_t first = 0; first < cells.size(); first += cellsAtOnce) {
+        Lattice lattice;
+        for (const SurveyCell& cell : cells.subspan(first, std::min(cellsAtOnce, cells.size() - first)))
+            lattice.add(sharedBy(rectOf(cell), mosaic.bounds()), latticeSamples);
+        std::vector<std::uint64_t> found;
+        for (const glm::dvec3& direction : lattice.directions(mosaic.placement()))
+            found.push_back(squareAt(direction, level));
+        sortUnique(found);
+        squares.insert(squares.end(), found.begin(), found.end());
+    }
     sortUnique(squares);
     return squares;
 }
@@ -347,6 +354,7 @@ AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
         std::clamp(static_cast<int>(std::lround(std::log2(area.faceCells))) - cellSamplesLog2, 0, maxLevel);
     area.stepM = commonStepM(area.mosaic);
     const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
+    std::size_t mostUnsorted = std::size_t{1} << 16;
     std::vector<SurveyCell> cut;
     std::map<std::size_t, Error> broken;
     std::mutex mutex;
@@ -382,7 +390,13 @@ AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
         const std::lock_guard lock(mutex);
         addTo(area.statistics, block.statistics);
         area.sampleCount += heights->size();
-        area.covered.indices.insert(area.covered.indices.end(), squares.begin(), squares.end());
+        std::vector<std::uint64_t>& covered = area.covered.indices;
+        covered.insert(covered.end(), squares.begin(), squares.end());
+        // Neighbouring blocks share squares. Without this, most of the list would be repetitions.
+        if (covered.size() > mostUnsorted) {
+            sortUnique(covered);
+            mostUnsorted = std::max(mostUnsorted, 2 * covered.size());
+        }
         cut.insert(cut.end(), block.cut.begin(), block.cut.end());
     });
     sortUnique(cut);

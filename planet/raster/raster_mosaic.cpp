@@ -16,8 +16,9 @@ namespace {
 constexpr double offGrid = 0.01;           // samples by which a raster of a grid may lie off it
 constexpr std::int64_t reducedSide = 128;  // samples per side of a cached block of a reduced resolution
 constexpr int mostHalvings = 2 * 22;       // of both axes together
+// A piece of a coarse planet reaches over several blocks, and each takes thousands of samples to make again.
 constexpr std::size_t leastReducedBytes =
-    4 * reducedSide * reducedSide * sizeof(float);  // cached of a resolution
+    32 * reducedSide * reducedSide * sizeof(float);  // cached of a resolution
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 std::int64_t floorDivided(std::int64_t value, std::int64_t by) {
@@ -115,9 +116,9 @@ const Raster& firstOnGrid(const std::vector<RasterPtr>& rasters) {
 }  // namespace
 
 MosaicCache::MosaicCache(std::size_t bytes) {
-    byHalvings_.emplace_back(bytes / 2);
+    byHalvings_.emplace_back(bytes / 3);
     for (int halvings = 1; halvings <= mostHalvings; ++halvings)
-        byHalvings_.emplace_back(std::max(leastReducedBytes, (bytes / 2) >> halvings));
+        byHalvings_.emplace_back(std::max(leastReducedBytes, (bytes / 3) >> halvings));
 }
 
 HeightBlockCache& MosaicCache::of(const GridReduction& reduction) {

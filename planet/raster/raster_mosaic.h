@@ -48,7 +48,7 @@ struct GridReduction {
 // fine blocks drops no coarse ones, which take many fine ones to make again. Thread-safe.
 class MosaicCache {
 public:
-    // bytes: the limit, to which the coarsest resolutions add at most 12 MB.
+    // bytes: the limit, to which each number of halvings that is read adds at most 2 MB.
     explicit MosaicCache(std::size_t bytes);
 
     HeightBlockCache& of(const GridReduction& reduction);

@@ -99,10 +99,10 @@ void keepPlacesOnTiles(const RasterMosaic& mosaic, PlacesOnGrid& places) {
         mosaic.tilesIn({first.column, first.row, last.column - first.column + 1, last.row - first.row + 1});
     std::size_t kept = 0;
     for (std::size_t i = 0; i < places.index.size(); ++i) {
-        const auto [column, row] = nearestSample(mosaic, places.column[i], places.row[i]);
+        const GridCell sample = nearestSample(mosaic, places.column[i], places.row[i]);
         const auto holds = [&](const GridRect& tile) {
-            return column >= tile.column && column < tile.column + tile.columns && row >= tile.row &&
-                   row < tile.row + tile.rows;
+            return sample.column >= tile.column && sample.column < tile.column + tile.columns &&
+                   sample.row >= tile.row && sample.row < tile.row + tile.rows;
         };
         if (std::ranges::none_of(tiles, holds)) continue;
         places.index[kept] = places.index[i];
