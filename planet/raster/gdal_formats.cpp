@@ -15,7 +15,7 @@ namespace planet {
 
 namespace {
 
-constexpr int gdalCacheBytes = 16 << 20;  // heights are cached after conversion
+constexpr int gdalCacheBytes = 8 << 20;  // heights are cached after conversion
 
 // A VRT is opened only after a check of what it names.
 constexpr std::array<const char*, 2> vrtOnly = {"VRT", nullptr};

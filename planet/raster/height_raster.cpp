@@ -116,9 +116,10 @@ HeightBlockCache::Block HeightBlockCache::find(const HeightBlockKey& key) {
 
 void HeightBlockCache::insert(const HeightBlockKey& key, const Block& block) {
     const std::size_t blockBytes = block->size() * sizeof(float);
+    const std::size_t limit = limit_();
     const std::lock_guard lock(mutex_);
-    if (byKey_.contains(key) || blockBytes > maxBytes_) return;
-    while (bytes_ + blockBytes > maxBytes_) {
+    if (byKey_.contains(key) || blockBytes > limit) return;
+    while (bytes_ + blockBytes > limit) {
         bytes_ -= entries_.back().block->size() * sizeof(float);
         byKey_.erase(entries_.back().key);
         entries_.pop_back();

@@ -15,6 +15,7 @@
 #include <stop_token>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "planet/base/file_calls.h"
@@ -67,12 +68,14 @@ struct HeightBlockKey {
     };
 };
 
-// Caches the most recently used blocks: at most maxBytes besides those in use. Thread-safe.
+// Caches the most recently used blocks: at most a limit of bytes besides those in use. Thread-safe.
 class HeightBlockCache {
 public:
     using Block = std::shared_ptr<const std::vector<float>>;
 
-    explicit HeightBlockCache(std::size_t maxBytes) : maxBytes_(maxBytes) {}
+    explicit HeightBlockCache(std::size_t maxBytes) : limit_([maxBytes] { return maxBytes; }) {}
+    // limit is asked for before each new block, by any thread.
+    explicit HeightBlockCache(std::function<std::size_t()> limit) : limit_(std::move(limit)) {}
 
     // Returns the block of a key; calls load() if it is not cached.
     Result<Block> get(const HeightBlockKey& key, const std::function<Result<std::vector<float>>()>& load);
@@ -86,7 +89,7 @@ private:
     Block find(const HeightBlockKey& key);
     void insert(const HeightBlockKey& key, const Block& block);
 
-    const std::size_t maxBytes_;
+    const std::function<std::size_t()> limit_;
     mutable std::mutex mutex_;
     std::list<Entry> entries_;  // most recently used first
     std::unordered_map<HeightBlockKey, std::list<Entry>::iterator, HeightBlockKey::Hash> byKey_;

@@ -18,7 +18,7 @@ constexpr std::int64_t reducedSide = 128;  // samples per side of a cached block
 constexpr int mostHalvings = 2 * 22;       // of both axes together
 // A piece of a coarse planet reaches over several blocks, and each takes thousands of samples to make again.
 constexpr std::size_t leastReducedBytes =
-    32 * reducedSide * reducedSide * sizeof(float);  // cached of a resolution
+    24 * reducedSide * reducedSide * sizeof(float);  // cached of a resolution
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 std::int64_t floorDivided(std::int64_t value, std::int64_t by) {
@@ -116,7 +116,11 @@ const Raster& firstOnGrid(const std::vector<RasterPtr>& rasters) {
 }  // namespace
 
 MosaicCache::MosaicCache(std::size_t bytes) {
-    byHalvings_.emplace_back(bytes / 3);
+    byHalvings_.emplace_back([this, bytes] {
+        std::size_t reduced = 0;
+        for (std::size_t i = 1; i < byHalvings_.size(); ++i) reduced += byHalvings_[i].bytes();
+        return std::max(bytes / 3, bytes - std::min(reduced, bytes));
+    });
     for (int halvings = 1; halvings <= mostHalvings; ++halvings)
         byHalvings_.emplace_back(std::max(leastReducedBytes, (bytes / 3) >> halvings));
 }

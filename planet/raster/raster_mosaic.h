@@ -44,12 +44,16 @@ struct GridReduction {
     auto operator<=>(const GridReduction&) const = default;
 };
 
-// The blocks of mosaics in memory. The samples and each number of halvings have a limit of their own, so that reading
-// fine blocks drops no coarse ones, which take many fine ones to make again. Thread-safe.
+// The blocks of mosaics in memory. Each number of halvings has a limit of its own, so that reading fine blocks drops no
+// coarse ones, which take many fine ones to make again. The samples get what these leave, but at least a third.
+// Thread-safe.
 class MosaicCache {
 public:
     // bytes: the limit, to which each number of halvings that is read adds at most 2 MB.
     explicit MosaicCache(std::size_t bytes);
+
+    MosaicCache(const MosaicCache&) = delete;
+    MosaicCache& operator=(const MosaicCache&) = delete;
 
     HeightBlockCache& of(const GridReduction& reduction);
     // Returns a number that no other mosaic with this cache has.
