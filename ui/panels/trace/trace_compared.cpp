@@ -186,7 +186,7 @@ void addPaging(const TraceCompared& result, std::vector<ComparedRow>& rows) {
     for (const TraceReport* const report : {&result.reportA, &result.reportB})
         for (const planet::TraceKindReport& each : report->kinds) kinds.push_back(each.kind);
     std::ranges::sort(kinds);
-    kinds.erase(std::ranges::unique(kinds).begin(), kinds.end());
+    kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
     for (const int kind : kinds) {
         const planet::TraceKindReport a = find(result.reportA, kind), b = find(result.reportB, kind);
         std::string name = a.name.empty() ? b.name : a.name;
