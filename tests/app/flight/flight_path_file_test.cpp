@@ -84,7 +84,7 @@ TEST(FlightPathFile, AKeyMayBeJumpedToEvenFromTheOppositePlace) {
 
 TEST(FlightPathFile, TheFlightsThatComeWithWorldyAreGood) {
     const std::filesystem::path folder = std::filesystem::path(WORLDY_SOURCE_DIR) / "data" / "flights";
-    for (const char* name : {"orbit_to_ground.toml", "andes_low_fast.toml"}) {
+    for (const char* name : {"orbit_to_ground.toml", "andes_low_fast.toml", "vancouver_coast.toml"}) {
         const planet::Result<FlightPath> path = loadFlightPath(folder / name);
         EXPECT_TRUE(path) << path.error().message;
     }

@@ -25,6 +25,7 @@
 #include "planet/measure/lod_changes.h"
 #include "planet/planet_tools.h"
 #include "planet/source/height_source.h"
+#include "tests/support/sparse_source.h"
 #include "tests/support/temporary_folder.h"
 
 namespace worldy {
@@ -243,6 +244,37 @@ TEST_F(FlightRecordTest, AFlightBySimulatedTimeReplaysExactlyEitherWay) {
     const Recorder recorder = flyAbout(*planet, troubled(true), 150);
     EXPECT_GT(planet->paging()[planet::BlockKind::Heights].failed, 0u);
     const FlightRecord record = loadFlightRecord(written(recorder)).value();
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
+    EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+}
+
+// The flight crosses the rim of the fine part.
+TEST_F(FlightRecordTest, AFlightOverASparseFileReplaysExactlyEitherWay) {
+    constexpr double degrees = 0.017453292519943295;
+    const planet::FacePoint middle =
+        planet::facePointFromDirection(planet::directionFromGeographic({20 * degrees, 40 * degrees}));
+    const planet::test::FineBox fine =
+        planet::test::boxAround(planet::cubePoint(middle.face, middle.u, middle.v), 0.15, 4096);
+    const auto rough = [](const glm::dvec3& d) {
+        return 200 * std::sin(2001 * d.x + 7 * d.z) * std::sin(1809 * d.y + 1507 * d.z);
+    };
+    ASSERT_TRUE(
+        planet::bake(planet::test::sparse(planet::test::formulaSource(rough, -200, 200, 0, 4097), {fine}),
+                     {.chunkSize = 17, .radiusM = 1e5}, folder_ / "hills.chk"));
+    const planet::ChunkFileInfo info = planet::ChunkFile::open(folder_ / "hills.chk").value().info();
+    ASSERT_EQ(planet::deepestLevelOf(info.shape), 8);
+    ASSERT_EQ(info.coarsestLeafLevel, 5);
+    ViewSettings settings = troubled(true);
+    settings.lod.tauPx = 0.5;
+    settings.paging.badDisk.latencyMs = 2;
+    const auto planet = openPlanet(settings);
+    const Recorder recorder = flyAbout(*planet, settings, 150);
+    const FlightRecord record = loadFlightRecord(written(recorder)).value();
+    std::set<int> levels;
+    for (const FlightFrame& frame : record.frames) {
+        for (const planet::ChunkId& id : frame.views[0].appeared) levels.insert(id.level);
+    }
+    EXPECT_TRUE(levels.contains(6)) << "nothing finer than the coarsest leaves is drawn";
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
 }

@@ -206,7 +206,8 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(, PlanetTracesOfFlights,
-                         testing::Values("", "andes_low_fast.toml", "orbit_to_ground.toml"));
+                         testing::Values("", "andes_low_fast.toml", "orbit_to_ground.toml",
+                                         "vancouver_coast.toml"));
 
 // The trace panels read TracedFrame and TraceHistory, and the panels of a planet read its counters.
 TEST_P(PlanetTracesOfFlights, tracePanelsShowTheNumbersOfThePlanetsPanels) {
