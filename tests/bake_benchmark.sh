@@ -3,7 +3,8 @@
 # Part 1 bakes the bundled Earth image, and lets gdalwarp write as many samples of it, bicubic, to the six faces of
 # PROJ's cube (qsc) as uncompressed GeoTIFFs. The two take turns, three times. A bake also makes all coarser levels,
 # measures their errors and compresses.
-# Part 2 bakes a mosaic of 1000 files and prints the memory that it took and how often each sample was read.
+# Part 2 does the same with a raster in UTM, 4000 x 4000: a bake to its natural depth, and gdalwarp to one face of qsc.
+# Part 3 bakes a mosaic of 1000 files and prints the memory that it took and how often each sample was read.
 # It needs build/worldy, gdal-bin and python3, and 2 GB in the folder for temporary files.
 set -eu
 cd "$(dirname "$0")/.."
@@ -30,21 +31,23 @@ bake() {
         >"$work/bake.txt" 2>&1
 }
 
-: >"$work/times"
-for _ in 1 2 3; do
-    for what in warp bake; do
-        start=$(now)
-        $what
-        echo "$what $start $(now)" >>"$work/times"
+# compare SAMPLES: runs `warp` and `bake` in turns, three times, and prints what each needed for so many samples.
+compare() {
+    : >"$work/times"
+    for _ in 1 2 3; do
+        for what in warp bake; do
+            start=$(now)
+            $what
+            echo "$what $start $(now)" >>"$work/times"
+        done
     done
-done
-python3 - "$work/times" "$size" "$threads" <<'PYTHON'
+    python3 - "$work/times" "$1" "$threads" <<'PYTHON'
 import statistics, sys
 times = {}
 for line in open(sys.argv[1]):
     what, start, end = line.split()
     times.setdefault(what, []).append(float(end) - float(start))
-samples = 6 * int(sys.argv[2]) ** 2
+samples = int(sys.argv[2])
 print(f"{samples / 1e6:.1f} M samples, {sys.argv[3]} threads, median of 3")
 for what, seconds in times.items():
     median = statistics.median(seconds)
@@ -52,6 +55,23 @@ for what, seconds in times.items():
 ratio = statistics.median(times["warp"]) / statistics.median(times["bake"])
 print(f"  the bake is {ratio:.2f} times as fast as gdalwarp")
 PYTHON
+}
+echo "the Earth, equirectangular"
+compare $((6 * size * size))
+
+gdalwarp -q -r cubic -t_srs EPSG:32719 -tr 25 25 -te 350000 6280000 450000 6380000 data/regions/S33W071.tif "$work/utm.tif"
+bake() {
+    "$worldy" bake "$work/utm.tif" --threads "$threads" -o "$work/utm.chk" --overwrite --json >"$work/utm.json" 2>/dev/null
+}
+bake
+samples=$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["samples"])' "$work/utm.json")
+side=$(python3 -c 'import math, sys; print(round(math.sqrt(int(sys.argv[1]))))' "$samples")
+warp() {
+    gdalwarp -q -overwrite -r cubic -multi -wo NUM_THREADS="$threads" -wm 256 \
+        -t_srs '+proj=qsc +lat_0=0 +lon_0=-90 +datum=WGS84' -ts "$side" "$side" "$work/utm.tif" "$work/warped.tif"
+}
+echo "a raster in UTM"
+compare "$samples"
 
 # A thousand tiles of one degree, made from the bundled Earth.
 mkdir "$work/tiles"
