@@ -61,11 +61,13 @@ void open(FileController& files, const std::filesystem::path& file, const FileCo
         if (file.extension() == ".toml" && !planet::isWorldFile(file))
             return openPreset(file, context, notices);
         if (isFlightRecord(file)) return next.push_back(ui::StartReplay{file});
-        if (isTraceFile(file)) {
+        const bool isTrace = isTraceFile(file);
+        if (isTrace) {
             addRecentFile(files.recent, file);
             keepRecent(files, notices);
-            return next.push_back(ui::OpenTrace{file});
         }
+        // A file that is only named like a trace gets the error of one.
+        if (isTrace || file.extension() == ".lodtrace") return next.push_back(ui::OpenTrace{file});
         if (file.extension() == ".png" && openScreenshot(file, context, notices)) return;
     }
     if (!openFile(context.session, file, context.settings.settings.view, notices.log)) {

@@ -91,7 +91,7 @@ ui::Message openingFailed(const std::filesystem::path& file, const planet::Error
             fmt::format("The open planet is kept. Fix the file or open another: a "
                         "chunk file (.chk), an elevation image or raster, a cube face, a world file or "
                         "settings (.toml), a recorded "
-                        "flight ({}) or one of Worldy's own screenshots (.png).",
+                        "flight ({}), a trace (.lodtrace) or one of Worldy's own screenshots (.png).",
                         recordedFlightEnding),
             true};
 }

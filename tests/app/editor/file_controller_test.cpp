@@ -46,5 +46,16 @@ TEST_F(FileControllerTest, aRecordedFlightIsReplayed) {
     EXPECT_FALSE(files_.opening);
 }
 
+// Its error is that of a trace, which names what is expected.
+TEST_F(FileControllerTest, aMissingTraceIsOpenedAsATrace) {
+    SettingsController settings;
+    CameraController camera;
+    ui::Commands next;
+    execute(files_, ui::OpenFile{"/nowhere/gone.lodtrace"}, {session_, settings, camera}, notices_, next);
+    ASSERT_EQ(next.size(), 1u);
+    EXPECT_TRUE(next[0].as<ui::OpenTrace>());
+    EXPECT_TRUE(files_.recent.empty());
+}
+
 }  // namespace
 }  // namespace worldy
