@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "planet/base/result.h"
@@ -52,6 +53,19 @@ protected:
 
     std::filesystem::path path_;
     RasterLayout layout_;
+};
+
+// Remembers which surface the first raster says that its heights are measured from.
+class ToldDatum {
+public:
+    // Returns an Error with both files if another raster has said something else. expected: what would be right, for the
+    // message.
+    Result<void> add(const Raster& raster, std::string_view expected);
+
+private:
+    std::filesystem::path path_;  // empty: no raster has said anything
+    std::string name_;
+    std::optional<VerticalDatum> datum_;
 };
 
 }  // namespace planet

@@ -223,6 +223,11 @@ Result<HeightSource> openRasterSource(const std::filesystem::path& path,
         return badInput(fmt::format("{}; all {} files are broken; expected some that can be read",
                                     opened.skipped[0], files.size()));
     }
+    ToldDatum told;
+    for (const RasterArea& area : areas) {
+        for (const RasterMosaic::Tile& tile : area.mosaic.tiles())
+            TRY(told.add(*tile.raster, "files of one datum, or a world file with a datum for each layer"));
+    }
     HeightSource source;
     source.description = describe(path, areas) + skippedText(opened.skipped.size());
     source.skipped = std::move(opened.skipped);

@@ -482,10 +482,15 @@ private:
 
     // Refuses a file that says that its heights have another datum than its layer, unless offset_m says how much they
     // differ.
-    static Result<void> checkDatum(const WorldLayer& layer, const Raster& raster) {
+    // Without datums, all files that say theirs must say the same.
+    Result<void> checkDatum(const WorldLayer& layer, const Raster& raster) {
         const RasterLayout& layout = raster.layout();
-        if (!layer.datum || layer.hasOffset || layout.verticalName.empty() || layout.datum == layer.datum)
-            return {};
+        if (layer.hasOffset || layout.verticalName.empty() || settings_.colourChannel) return {};
+        if (!datum_ && layer.join != LayerJoin::Add)
+            return toldDatum_.add(raster,
+                                  "datum at the top of the world file and in each layer, or offset_m in the "
+                                  "layer with the difference");
+        if (!layer.datum || layout.datum == layer.datum) return {};
         const std::string expected =
             layout.datum ? fmt::format("datum = \"{}\" in the layer, or ", nameOf(*layout.datum)) : "";
         return badInput(fmt::format(
@@ -624,6 +629,7 @@ private:
     double radiusM_;
     double fillM_;
     std::optional<VerticalDatum> datum_;  // of the planet
+    ToldDatum toldDatum_;                 // by the files, without a datum of the planet
     std::optional<DatumShift> shift_;     // of the layer that is being added
     std::unique_ptr<World> world_;
     Extent extent_;

@@ -185,6 +185,33 @@ TEST_F(WorldSource, DatumThatTheFileContradictsIsRefusedWithoutAnOffset) {
     }
 }
 
+TEST_F(WorldSource, FilesThatSayDifferentDatumsAreRefusedWithoutAny) {
+    SampleGrid grid = gridAround(4326, 10, 45, 40, 40, 0.01);
+    for (const auto& [name, epsg] :
+         {std::pair("egm96.tif", 9707), {"ellipsoid.tif", 4979}, {"silent.tif", 4326}}) {
+        grid.epsg = epsg;
+        writeRaster(folder / name, grid, std::vector<float>(1600, 200));
+    }
+    const auto layer = [](const std::string& file) {
+        return fmt::format("[[elevation]]\nfiles = \"{}\"\n", file);
+    };
+    const auto isRefused =
+        AllOf(HasSubstr("ellipsoid.tif: says that its heights are ellipsoidal height, but "),
+              HasSubstr("egm96.tif says EGM96 height; expected "));
+    EXPECT_THAT(errorOfWorld(layer("egm96.tif") + layer("silent.tif") + layer("ellipsoid.tif")),
+                AllOf(isRefused, HasSubstr("datum at the top of the world file")));
+    const auto list =
+        openHeightSource((folder / "egm96.tif").string() + "|" + (folder / "ellipsoid.tif").string(), {});
+    ASSERT_FALSE(list);
+    EXPECT_THAT(list.error().message,
+                AllOf(HasSubstr("says that its heights are "), HasSubstr("files of one datum")));
+    for (const std::string& text :
+         {layer("egm96.tif") + layer("silent.tif"), layer("egm96.tif") + layer("egm96.tif"),
+          layer("egm96.tif") + layer("ellipsoid.tif") + "join = \"add\"\n",
+          layer("egm96.tif") + layer("ellipsoid.tif") + "offset_m = 0\n"})
+        EXPECT_GT(worldOf(text).maxM, 199) << text;
+}
+
 TEST_F(WorldSource, LayerWithoutHeightsLeavesTheOthers) {
     writeRaster(folder / "void.tif", gridAround(4326, 10, 45, 40, 40, 0.01), std::vector<float>(1600, -9999),
                 {.noData = -9999});
