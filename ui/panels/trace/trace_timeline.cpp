@@ -243,7 +243,7 @@ void mouse(const Axis& axis, double beginS, double endS, bool isCompared, TraceT
                         "button moves; double-clicking it shows everything.\nWith the focus: Left, Right, "
                         "PageUp, PageDown, Home, End show other frames; Up, Down, + and - zoom.{}",
                         axis.samples[sample].frame, axis.samples[sample].timeS,
-                        isCompared ? "\nThe marks along the lower edge are frames in which the other trace "
+                        isCompared ? "\nThe marks along the upper edge are frames in which the other trace "
                                      "draws other nodes."
                                    : "")
                 .c_str());
@@ -318,8 +318,7 @@ void traceTimeline(const EditorView& view, TraceTimelineState& state, Commands& 
         ImGui::PopClipRect();
         y += height + gap;
     }
-    const float mark = std::round(0.3f * font);
-    drawDifferences(list, view, axis, y - gap - mark, mark);
+    drawDifferences(list, view, axis, corner.y, std::round(0.2f * font));
     const float x = axis.at(shownS);
     if (x >= corner.x && x <= corner.x + size.x)
         list.AddLine({x, corner.y}, {x, y - gap}, packed(palette().warning), 1.4f * font / 13);
