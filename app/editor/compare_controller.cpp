@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/base/text.h"
 #include "app/flight/flight_path_file.h"
 #include "app/measure/cracks.h"
 #include "app/scene/overlay_colours.h"
@@ -413,6 +414,11 @@ ui::CompareView compareViewOf(CompareController& controller, const Session& sess
     shown.settingsB = &b.settings;
     shown.fileA = a->data.chunkFile;
     shown.fileB = b.planet.data.chunkFile;
+    const bool hasOneSource = a->data.source == b.planet.data.source;
+    const auto nameOf = [&](const DataSet& data) {
+        return hasOneSource ? data.chunkFile.filename().string() : sourceName(data.source);
+    };
+    shown.names = {nameOf(a->data), nameOf(b.planet.data)};
     shown.origin = b.origin;
     shown.different = controller.different;
     shown.now = {figuresOf(statsOfA, controller.meters[0]), figuresOf(b.stats, controller.meters[1])};

@@ -38,7 +38,8 @@ struct CompareView {
     const ViewSettings* settingsB = nullptr;
     std::filesystem::path fileA;
     std::filesystem::path fileB;
-    std::string origin;                            // of B: "snapshot", "preset popping"
+    std::array<std::string, 2> names;  // of A's and B's planet: the sources or, if they have one, the files
+    std::string origin;                // of B: "snapshot", "preset popping"
     std::span<const SettingDifference> different;  // SettingDifference::here is A, there is B
     std::array<ComparedFigures, 2> now;
     std::optional<PictureDifferenceNow> difference;

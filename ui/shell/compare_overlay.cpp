@@ -122,8 +122,8 @@ std::array<std::string, 2> sideNames(const CompareView& compare) {
     if (compare.different.empty() && compare.fileA == compare.fileB) return {"A", "B, equal settings"};
     std::array<std::string, 2> names = {"A", "B"};
     if (compare.fileA != compare.fileB) {
-        names[0] += "  " + compare.fileA.filename().string();
-        names[1] += "  " + compare.fileB.filename().string();
+        names[0] += "  " + compare.names[0];
+        names[1] += "  " + compare.names[1];
     }
     if (compare.different.size() == 1) {
         const SettingDifference& one = compare.different.front();

@@ -105,6 +105,11 @@ TEST_F(CompareControllerTest, anotherFileAsBIsSwappedWithItsSettings) {
     ASSERT_TRUE(start(session, {With::File, {}, coarse}));
     frame(session);
     EXPECT_EQ(shown(session).fileB, coarse);
+    EXPECT_EQ(shown(session).names, (std::array<std::string, 2>{"slope.chk", "coarse.chk"}));
+    // The chunk file of a source lies in the cache, and its name says nothing.
+    const std::filesystem::path source = std::exchange(controller_.other->planet.data.source, "hills.tif");
+    EXPECT_EQ(sideNames(shown(session))[1].substr(0, 12), "B  hills.tif");
+    controller_.other->planet.data.source = source;
     const planet::Planet* before = session.open->scene.planet.get();
     settings_ = swapCompared(controller_, session, settings_, log_);
     EXPECT_EQ(session.data.chunkFile, coarse);

@@ -90,6 +90,7 @@ protected:
         view.compare.origin = "snapshot";
         view.compare.fileA = "/home/me/earth.chk";
         view.compare.fileB = "/home/me/earth of another bake.chk";
+        view.compare.names = {"earth.chk", "earth of another bake.chk"};
         view.compare.different = differences_;
         view.compare.now = compared_;
         view.compare.flight.last = &compared_;

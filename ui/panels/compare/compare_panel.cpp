@@ -117,7 +117,7 @@ void differencesTable(const CompareView& compare) {
     };
     std::vector<Row> rows;
     if (compare.fileA != compare.fileB)
-        rows.push_back({{"chunk file", compare.fileA.filename().string(), compare.fileB.filename().string()},
+        rows.push_back({{"planet", compare.names[0], compare.names[1]},
                         {nullptr, compare.fileA.c_str(), compare.fileB.c_str()},
                         "file",
                         {compare.fileA.string(), compare.fileB.string()}});
