@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -258,7 +259,8 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, con
         Result<StepResult> made;
     };
     std::vector<Work> underWay(static_cast<std::size_t>(threads) * 3);
-    tbb::enumerable_thread_specific<BakeScratch> scratches;
+    // TBB's own allocator reuses memory in ways that the thread sanitizer does not see.
+    tbb::enumerable_thread_specific<BakeScratch, std::allocator<BakeScratch>> scratches;
     Result<void> outcome;
     std::atomic<bool> stop = false;
     std::size_t begun = 0;

@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -95,7 +96,8 @@ Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<TreeUnit>& 
         const std::lock_guard lock(mutex);
         return !outcome;
     };
-    tbb::enumerable_thread_specific<BakeScratch> scratches;
+    // TBB's own allocator reuses memory in ways that the thread sanitizer does not see.
+    tbb::enumerable_thread_specific<BakeScratch, std::allocator<BakeScratch>> scratches;
     parallelFor(threads, units.size(), [&](std::size_t i) {
         if (hasFailed()) return;
         const Result<Sample> sample = bakePlace(bake, units[i], scratches.local());
