@@ -338,10 +338,9 @@ Result<bool> runTraceCompare(const TraceCommandOptions& options) {
                                                           .faults = options.faults},
                                                          [&](double) { return !watch.interrupted(); });
     if (!both) return tl::unexpected(both.error());
-    const planet::TraceComparison* const compared = &both->found;
+    const planet::TraceComparison& found = both->found;
     std::vector<std::string> broken = brokenLimits(options.limits, both->reportB);
-    if (const auto sentence = brokenDiffering(options.limits.differing, *compared))
-        broken.push_back(*sentence);
+    if (const auto sentence = brokenDiffering(options.limits.differing, found)) broken.push_back(*sentence);
     if (!options.report.json) printTraceComparison(*both, options.worst);
     Json json = traceComparisonJson(*both);
     json["report_a"] = wholeJson(options, options.file, both->reportA);
@@ -349,9 +348,9 @@ Result<bool> runTraceCompare(const TraceCommandOptions& options) {
     json["broken_limits"] = broken;
     if (Result<void> written = writeReport(options.report, json); !written)
         return tl::unexpected(std::move(written).error());
-    if (compared->isDamagedA) return planet::badInput(*compared->problemA);
-    if (compared->isDamagedB) return planet::badInput(*compared->problemB);
-    for (const auto& problem : {compared->problemA, compared->problemB})
+    if (found.isDamagedA) return planet::badInput(*found.problemA);
+    if (found.isDamagedB) return planet::badInput(*found.problemB);
+    for (const auto& problem : {found.problemA, found.problemB})
         if (problem) printMessage("worldy: {}\n", *problem);
     return holdAll(broken);
 }

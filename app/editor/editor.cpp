@@ -242,8 +242,11 @@ LastSession Editor::lastSession(const Session& session) const {
     if (files_.trace.document && !files_.trace.isLive) {
         last.trace = files_.trace.document->file();
         last.traceFrame = files_.trace.playback.frame;
-        const std::optional<TraceCompared>& compared = files_.trace.compare.result;
-        if (compared && compared->request.fileA == last.trace) last.traceB = compared->request.fileB;
+        const TraceCompareRun& run = files_.trace.compare;
+        const TraceCompareRequest compared = run.job      ? run.request
+                                             : run.result ? run.result->request
+                                                          : TraceCompareRequest{};
+        if (compared.fileA == last.trace) last.traceB = compared.fileB;
     }
     if (open) {
         const DataSet& data = open->data;

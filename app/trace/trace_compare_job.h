@@ -29,7 +29,7 @@ struct TraceCompared {
     TraceCompareRequest request{};
     planet::TraceComparison found{};           // of the frames that both have
     planet::TraceReport reportA{}, reportB{};  // of the whole traces
-    // Of each listed difference: the numbers of the frame and the names of the listed nodes, for a filter.
+    // A filter searches these. Each text holds the frame numbers of one listed difference and the names of its nodes.
     std::vector<std::string> texts{};
 };
 

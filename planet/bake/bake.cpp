@@ -1,7 +1,6 @@
 #include "planet/bake/bake.h"
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
@@ -9,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <iterator>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -259,8 +257,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, con
         Result<StepResult> made;
     };
     std::vector<Work> underWay(static_cast<std::size_t>(threads) * 3);
-    // TBB's own allocator reuses memory in ways that the thread sanitizer does not see.
-    tbb::enumerable_thread_specific<BakeScratch, std::allocator<BakeScratch>> scratches;
+    PerThread<BakeScratch> scratches;
     Result<void> outcome;
     std::atomic<bool> stop = false;
     std::size_t begun = 0;

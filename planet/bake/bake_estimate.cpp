@@ -1,9 +1,6 @@
 #include "planet/bake/bake_estimate.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -96,8 +93,7 @@ Result<Sample> bakePlaces(const BakeContext& bake, const std::vector<TreeUnit>& 
         const std::lock_guard lock(mutex);
         return !outcome;
     };
-    // TBB's own allocator reuses memory in ways that the thread sanitizer does not see.
-    tbb::enumerable_thread_specific<BakeScratch, std::allocator<BakeScratch>> scratches;
+    PerThread<BakeScratch> scratches;
     parallelFor(threads, units.size(), [&](std::size_t i) {
         if (hasFailed()) return;
         const Result<Sample> sample = bakePlace(bake, units[i], scratches.local());

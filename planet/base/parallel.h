@@ -1,11 +1,13 @@
 // Runs work on oneTBB's threads. Internal to the library.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 namespace planet {
@@ -51,6 +53,11 @@ private:
     Handover* handover_;
     const Work* work_;
 };
+
+// One value for each thread that asks for it. oneTBB's own allocator would reuse memory where the thread sanitizer cannot
+// see it.
+template <class T>
+using PerThread = tbb::enumerable_thread_specific<T, std::allocator<T>>;
 
 // Calls body(index) for each index below count, in parallel, and returns when all calls are done. A call
 // should take longer than 1 µs. This is a pipeline because tbb::parallel_for is compiled into its caller,
