@@ -1,4 +1,3 @@
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 #include <zstd.h>
@@ -10,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/base/picture_file.h"
 #include "app/cli/bench_parts.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/file_report.h"
@@ -131,11 +131,8 @@ std::vector<std::uint16_t> greyOf(const FaceImage& image, std::int16_t darkest) 
 
 Result<std::size_t> pngBytes(int side, const std::vector<std::uint16_t>& grey,
                              const std::filesystem::path& file) {
-    const auto output = OIIO::ImageOutput::create(file.string());
-    if (!output || !output->open(file.string(), OIIO::ImageSpec(side, side, 1, OIIO::TypeDesc::UINT16)) ||
-        !output->write_image(OIIO::TypeDesc::UINT16, grey.data()) || !output->close()) {
-        return planet::ioError(fmt::format("{}: cannot be written", file.string()));
-    }
+    if (Result<void> written = writeGrey16(side, grey, file); !written)
+        return tl::unexpected(written.error());
     return static_cast<std::size_t>(std::filesystem::file_size(file));
 }
 
@@ -239,8 +236,10 @@ BenchRows benchBake(const planet::HeightSource& source, int faceSize, const Benc
         [&] { static_cast<void>(packSource(source, faceSize, quantumM)); }};
     const std::vector<std::vector<double>> ms = timeInTurn(jobs, options.rounds);
     if (!report) return tl::unexpected(report.error());
-    return pairedRates({fmt::format("baking faces of {}, one thread", faceSize), "reading and zstd -1"},
-                       "Msamples/s", static_cast<double>(report->samples) / 1e6, ms);
+    std::vector<BenchRow> rows =
+        pairedRates({fmt::format("baking faces of {}, one thread", faceSize), "reading and zstd -1"},
+                    "Msamples/s", static_cast<double>(report->samples) / 1e6, ms);
+    return rows;
 }
 
 BenchRows benchVerify(const BenchPlanet& planet, const BenchOptions& options) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/base/interrupt.h"
+#include "app/base/picture_file.h"
 #include "app/base/report.h"
 #include "app/base/text.h"
 #include "app/flight/flight_path_file.h"

@@ -39,13 +39,15 @@ void print(const std::vector<PartCost>& costs) {
 }  // namespace
 
 Result<void> runCosts(const CostsOptions& options) {
-    const Result<std::optional<Picture>> colour = colourPictureOf(options.file, options.colourImage);
+    const Result<std::filesystem::path> colour = colourImageToDraw(options.file, options.colourImage);
     if (!colour) return tl::unexpected(colour.error());
-    const SceneConfig config{options.file, {}, *colour ? &**colour : nullptr};
+    const SceneConfig config{options.file, {}, *colour};
     // The data for all features is loaded first.
     const ViewSettings all = partsOf(options.view, {}).back().settings;
     Result<Offscreen> offscreen = openOffscreen(config, all, options.size, 1);
     if (!offscreen) return tl::unexpected(offscreen.error());
+    // Some of the costs are measured without the planet's own colours.
+    if (Result<void> read = readColourImage(offscreen->scene); !read) return read;
     const double radiusM = offscreen->scene.planet->tree().shape.radiusM;
     const SettledView at =
         settleAt(*offscreen, options.camera.value_or(startPose(options.start, radiusM)), all);

@@ -11,6 +11,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
+#include "app/base/picture_file.h"
 #include "app/base/report.h"
 #include "app/flight/flight_path.h"
 #include "app/flight/flight_path_file.h"

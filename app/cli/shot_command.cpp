@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/base/message.h"
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "app/base/report.h"
 #include "app/base/text.h"
 #include "app/scene/frame_report.h"
@@ -60,11 +61,17 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
 }  // namespace
 
 Result<void> takeShot(const ShotOptions& options) {
-    const Result<std::optional<Picture>> colour = colourPictureOf(options.file, options.colourImage);
+    // Loading the libraries that write the picture takes long, so another thread does it meanwhile.
+    const std::jthread loading(loadImageLibraries);
+    const Result<std::filesystem::path> colour = colourImageToDraw(options.file, options.colourImage);
     if (!colour) return tl::unexpected(colour.error());
-    const SceneConfig config{options.file, options.shaderFolder, *colour ? &**colour : nullptr};
+    const SceneConfig config{options.file, options.shaderFolder, *colour};
     Result<Offscreen> offscreen = openOffscreen(config, options.view, options.size, options.samples);
     if (!offscreen) return tl::unexpected(offscreen.error());
+    // A named image must be readable, even if the file has colours of its own.
+    if (!options.colourImage.empty()) {
+        if (Result<void> read = readColourImage(offscreen->scene); !read) return read;
+    }
 
     const double radiusM = offscreen->scene.planet->tree().shape.radiusM;
     const SettledView view =

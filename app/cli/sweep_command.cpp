@@ -8,6 +8,7 @@
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
 #include "app/base/output_file.h"
+#include "app/base/picture_file.h"
 #include "app/data/bake_progress.h"
 #include "app/data/data_set.h"
 #include "app/flight/flight_path_file.h"

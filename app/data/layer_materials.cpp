@@ -1,15 +1,13 @@
 #include "app/data/layer_materials.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string_view>
 
+#include "app/base/picture_file.h"
 #include "app/base/report.h"
 #include "app/settings/layer_file.h"
-#include "planet/base/atomic_file.h"
 
 namespace worldy {
 
@@ -18,29 +16,17 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-Result<void> writeTexture(const fs::path& file, std::span<const std::uint8_t> bytes, int size, int channels) {
-    return planet::writeAtomically(file, [&](const fs::path& temporary) -> Result<void> {
-        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
-        OIIO::ImageSpec spec(size, size, channels, OIIO::TypeDesc::UINT8);
-        spec.attribute("png:compressionLevel", 9);
-        // The fourth channel is relief, so colour must not be multiplied by it.
-        spec.attribute("oiio:UnassociatedAlpha", 1);
-        if (output && output->open(temporary.string(), spec) &&
-            output->write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output->close())
-            return {};
-        const std::string why = output ? output->geterror() : OIIO::geterror();
-        return planet::ioError(
-            fmt::format("{}: cannot be written: {}; expected a writable folder", file.string(), why));
-    });
-}
-
 Result<void> writeMaterial(const MakeLayersOptions& options, planet::Material material) {
     const planet::MaterialMaps maps = planet::makeMaterial(material, options.texels, options.seed);
     const std::string_view name = planet::materialNames[static_cast<std::size_t>(material)];
     const auto file = [&](const char* what) { return options.output / fmt::format("{}_{}.png", name, what); };
-    return writeTexture(file("albedo"), maps.albedo, maps.size, 4)
-        .and_then([&] { return writeTexture(file("normal"), maps.normal, maps.size, 3); })
-        .and_then([&] { return writeTexture(file("roughness"), maps.roughness, maps.size, 1); });
+    return writeTexture({maps.size, 4, maps.albedo}, file("albedo"))
+        .and_then([&] {
+            return writeTexture({maps.size, 3, maps.normal}, file("normal"));
+        })
+        .and_then([&] {
+            return writeTexture({maps.size, 1, maps.roughness}, file("roughness"));
+        });
 }
 
 }  // namespace

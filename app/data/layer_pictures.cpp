@@ -1,6 +1,5 @@
 #include "app/data/layer_pictures.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/base/picture_file.h"
 #include "planet/gl/store/layer_textures.h"
 
 namespace worldy {
@@ -17,63 +17,29 @@ namespace {
 namespace fs = std::filesystem;
 using planet::Result;
 
-constexpr int leastSize = 8;
-constexpr int mostSize = 4096;
-
-struct Texels {
-    int size = 0;
-    int channels = 0;
-    std::vector<std::uint8_t> bytes;
-
-    std::uint8_t at(std::size_t texel, int channel) const {
-        return bytes[texel * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)];
-    }
-};
-
-Result<Texels> readTexels(const fs::path& file) {
-    OIIO::ImageSpec asStored;
-    // Alpha is relief, so colour must not be multiplied by it.
-    asStored.attribute("oiio:UnassociatedAlpha", 1);
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string(), &asStored);
-    if (!input) {
-        OIIO::geterror();  // discards the pending error
-        return planet::badInput(
-            fmt::format("{}: cannot be read as an image; expected a PNG texture", file.string()));
-    }
-    const OIIO::ImageSpec& spec = input->spec();
-    const bool powerOfTwo = spec.width > 0 && (spec.width & (spec.width - 1)) == 0;
-    if (spec.width != spec.height || !powerOfTwo || spec.width < leastSize || spec.width > mostSize) {
-        return planet::badInput(
-            fmt::format("{}: is {} x {} pixels; expected a square with a power-of-two side in [{}, {}]",
-                        file.string(), spec.width, spec.height, leastSize, mostSize));
-    }
-    Texels texels{spec.width, spec.nchannels, {}};
-    const auto side = static_cast<std::size_t>(spec.width);
-    texels.bytes.resize(side * side * static_cast<std::size_t>(spec.nchannels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, texels.bytes.data()))
-        return planet::badInput(
-            fmt::format("{}: is damaged: {}; expected a complete picture", file.string(), input->geterror()));
-    return texels;
+std::uint8_t valueAt(const Texture& texture, std::size_t texel, int channel) {
+    return texture
+        .bytes[texel * static_cast<std::size_t>(texture.channels) + static_cast<std::size_t>(channel)];
 }
 
-// Returns four channels per texel; pick(texels, i) returns those of one texel.
+// Returns four channels per texel; pick(texture, i) returns those of one texel.
 template <class Pick>
-std::vector<std::uint8_t> laidOut(const Texels& texels, const Pick& pick) {
-    const std::size_t count = static_cast<std::size_t>(texels.size) * static_cast<std::size_t>(texels.size);
+std::vector<std::uint8_t> laidOut(const Texture& texture, const Pick& pick) {
+    const std::size_t count = static_cast<std::size_t>(texture.size) * static_cast<std::size_t>(texture.size);
     std::vector<std::uint8_t> out;
     out.reserve(4 * count);
     for (std::size_t i = 0; i < count; ++i) {
-        const std::array<std::uint8_t, 4> rgba = pick(texels, i);
+        const std::array<std::uint8_t, 4> rgba = pick(texture, i);
         out.insert(out.end(), rgba.begin(), rgba.end());
     }
     return out;
 }
 
-std::array<std::uint8_t, 4> albedoTexel(const Texels& texels, std::size_t i) {
-    const int last = texels.channels >= 3 ? 1 : 0;
-    const bool relief = texels.channels == 2 || texels.channels == 4;
-    return {texels.at(i, 0), texels.at(i, last), texels.at(i, 2 * last),
-            relief ? texels.at(i, texels.channels - 1) : std::uint8_t{128}};
+std::array<std::uint8_t, 4> albedoTexel(const Texture& texture, std::size_t i) {
+    const int last = texture.channels >= 3 ? 1 : 0;
+    const bool relief = texture.channels == 2 || texture.channels == 4;
+    return {valueAt(texture, i, 0), valueAt(texture, i, last), valueAt(texture, i, 2 * last),
+            relief ? valueAt(texture, i, texture.channels - 1) : std::uint8_t{128}};
 }
 
 std::vector<std::uint8_t> enlargedBytes(const std::vector<std::uint8_t>& from, int size, int times) {
@@ -150,31 +116,31 @@ void readAll(const planet::LayerSet& set, planet::gl::ChunkRenderer& renderer, L
 
 Result<LayerTexels> readLayerTexels(const fs::path& folder, const LayerFiles& files) {
     if (files[0].empty()) return planet::badInput("albedo: is empty; expected the path of a PNG texture");
-    std::array<Texels, 3> read;
+    std::array<Texture, 3> read;
     read[1] = {1, 3, {128, 128, 255}};
     read[2] = {1, 1, {230}};
     int size = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (!files[i].empty()) {
-            Result<Texels> texels = readTexels(folder / files[i]);
-            if (!texels) return tl::unexpected(texels.error());
-            if (i == 1 && texels->channels < 3) {
+            Result<Texture> texture = readTexture(folder / files[i]);
+            if (!texture) return tl::unexpected(texture.error());
+            if (i == 1 && texture->channels < 3) {
                 return planet::badInput(fmt::format("{}: has {} channels; expected red, green and blue",
-                                                    (folder / files[i]).string(), texels->channels));
+                                                    (folder / files[i]).string(), texture->channels));
             }
-            read[i] = std::move(*texels);
+            read[i] = std::move(*texture);
         }
         size = std::max(size, read[i].size);
     }
-    const auto picked = [&](const Texels& texels, const auto& pick) {
-        return fitted(laidOut(texels, pick), texels.size, size);
+    const auto picked = [&](const Texture& texture, const auto& pick) {
+        return fitted(laidOut(texture, pick), texture.size, size);
     };
     LayerTexels texels{size, {picked(read[0], albedoTexel), {}}};
-    texels.picture.surface = picked(read[1], [](const Texels& from, std::size_t i) {
-        return std::array<std::uint8_t, 4>{from.at(i, 0), from.at(i, 1), 0, 255};
+    texels.picture.surface = picked(read[1], [](const Texture& from, std::size_t i) {
+        return std::array<std::uint8_t, 4>{valueAt(from, i, 0), valueAt(from, i, 1), 0, 255};
     });
-    const std::vector<std::uint8_t> rough = picked(read[2], [](const Texels& from, std::size_t i) {
-        return std::array<std::uint8_t, 4>{from.at(i, 0), 0, 0, 0};
+    const std::vector<std::uint8_t> rough = picked(read[2], [](const Texture& from, std::size_t i) {
+        return std::array<std::uint8_t, 4>{valueAt(from, i, 0), 0, 0, 0};
     });
     for (std::size_t i = 0; i < rough.size(); i += 4) texels.picture.surface[i + 2] = rough[i];
     return texels;

@@ -1,14 +1,13 @@
 #include "app/data/write_check.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <cstring>
-#include <memory>
 #include <string>
 #include <string_view>
 
 #include "app/base/output_file.h"
+#include "app/base/picture_file.h"
 #include "app/data/data_set.h"
 #include "app/data/own_colour.h"
 #include "app/data/worlds.h"
@@ -17,7 +16,6 @@
 #include "app/settings/settings_text.h"
 #include "planet/base/atomic_file.h"
 #include "planet/format/chunk_file_format.h"
-#include "planet/raster/geo_tags.h"
 #include "planet/source/height_source.h"
 
 namespace worldy {
@@ -57,22 +55,6 @@ bool isJson(const fs::path& file) {
 
 bool isCsv(const fs::path& file) {
     return startOfFile(file, lookedAtBytes).starts_with("schema_version,");
-}
-
-bool hasGeoTags(const fs::path& file) {
-    const Result<planet::GeoTags> tags = planet::readGeoTags(file);
-    return !tags || tags->placement || tags->noDataValue;
-}
-
-bool isOwnPicture(const fs::path& file) {
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file.string());
-    OIIO::geterror();  // discards the pending error
-    if (!input || !output) return false;
-    const OIIO::ImageSpec& spec = input->spec();
-    return spec.nchannels == 3 && spec.format == OIIO::TypeDesc::UINT8 &&
-           std::string_view(input->format_name()) == output->format_name() &&
-           (std::string_view(input->format_name()) != "tiff" || !hasGeoTags(file));
 }
 
 bool isOfKind(const fs::path& file, OutputKind kind) {
@@ -217,13 +199,11 @@ Result<void> checkPlaces(const std::vector<OutputFile>& outputs) {
         const Result<void> writable =
             willBeMade ? checkFolderCanBeMade(folder) : planet::checkWritable(output.path);
         if (!writable) return writable;
-        if (output.kind == OutputKind::Picture && !OIIO::ImageOutput::create(output.path.string())) {
-            OIIO::geterror();  // discards the pending error
-            return planet::badInput(
-                fmt::format("{}: the extension names no picture format; expected a name "
-                            "ending in .png, .jpg or .tif",
-                            output.path.string()));
-        }
+        // The usual extensions are known without the image libraries, which take long to load.
+        const std::string extension = output.path.extension().string();
+        const bool isUsual = extension == ".png" || extension == ".jpg" || extension == ".tif";
+        if (output.kind != OutputKind::Picture || isUsual) continue;
+        if (Result<void> known = checkPictureName(output.path); !known) return known;
     }
     return {};
 }

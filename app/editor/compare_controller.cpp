@@ -261,12 +261,11 @@ void forgetPopsOfA(CompareController& controller) {
     controller.meters[0].pops.clear();
 }
 
-ViewSettings swapCompared(CompareController& controller, Session& session, const ViewSettings& settings,
-                          const Log& log) {
+ViewSettings swapCompared(CompareController& controller, Session& session, const ViewSettings& settings) {
     if (!controller.other || !shownScene(session)) return settings;
     ViewSettings settingsOfA = std::exchange(controller.other->settings, settings);
     if (shownPlanet(session)->data.chunkFile != controller.other->planet.data.chunkFile)
-        exchangeShown(session, controller.other->planet, log);
+        exchangeShown(session, controller.other->planet);
     controller.other->origin = "previous A";
     beginMeters(controller, *shownScene(session));
     return withSharedOf(std::move(settingsOfA), settings);
@@ -460,7 +459,7 @@ struct CompareHandler {
     void operator()(const ui::StopCompare&) const { controller.ending = true; }
     void operator()(const ui::SwapCompare&) const {
         if (!mayChange("Settings", context.replaying, notices.log)) return;
-        replaceView(context.settings, swapCompared(controller, context.session, settings(), notices.log),
+        replaceView(context.settings, swapCompared(controller, context.session, settings()),
                     "swap of A and B");
         context.stepOnce = true;
     }

@@ -98,8 +98,7 @@ void stopCompare(CompareController& controller);
 void forgetPopsOfA(CompareController& controller);
 // Swaps the planets and settings of A and B, except the settings of the camera and the comparison. Returns
 // A's.
-ViewSettings swapCompared(CompareController& controller, Session& session, const ViewSettings& settings,
-                          const Log& log);
+ViewSettings swapCompared(CompareController& controller, Session& session, const ViewSettings& settings);
 
 // Runs one frame of B, after A has chosen its chunks. Ends comparing if A's planet now has another radius.
 struct CompareFrame {

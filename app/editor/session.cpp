@@ -36,15 +36,6 @@ void addColours(const planet::ChunkFileInfo& info, const DataSet& data, BakeRequ
     request.colour = data.bakedColour;
 }
 
-// Reads a colour image. If it cannot be read, a warning is logged and the planet is coloured by height.
-std::optional<Picture> readColour(const fs::path& file, const Log& log) {
-    if (file.empty()) return std::nullopt;
-    Result<Picture> colour = readPlanetPicture(file);
-    if (colour) return std::move(*colour);
-    log->warn("{}", colour.error().message);
-    return std::nullopt;
-}
-
 // Returns a planet that was just opened with what is known of it.
 OpenPlanet openedAs(const DataSet& data, Scene&& scene) {
     // The stored shape is used, because the planet's own shape includes the exaggeration.
@@ -66,15 +57,9 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ViewS
         if (!programs) return tl::unexpected(programs.error());
         session.shaders.programs = std::make_shared<ChunkPrograms>(std::move(*programs));
     }
-    const bool sameColour = data.colourImage == session.colourFile;
-    std::optional<Picture> fresh = sameColour ? std::nullopt : readColour(data.colourImage, log);
-    const std::optional<Picture>& colour = sameColour ? session.colour : fresh;
     Result<Scene> scene = openScene(
-        {data.chunkFile, session.shaders.folder, colour ? &*colour : nullptr, session.shaders.programs},
-        settings);
+        {data.chunkFile, session.shaders.folder, data.colourImage, session.shaders.programs}, settings);
     if (!scene) return tl::unexpected(scene.error());
-    if (!sameColour) session.colour = std::move(fresh);
-    session.colourFile = data.colourImage;
     OpenPlanet open = openedAs(data, std::move(*scene));
     const planet::ChunkFile& file = open.scene.planet->file();
     log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
@@ -412,16 +397,8 @@ Result<OpenPlanet> openBeside(const Session& session, const DataSet& data, const
         return planet::badInput(
             fmt::format("{}: is not baked yet; open it once in the window", data.source.string()));
     }
-    std::optional<Picture> colour;
-    // Without its image the planet is coloured by height.
-    if (data.colourImage != session.colourFile && !data.colourImage.empty()) {
-        if (Result<Picture> read = readPlanetPicture(data.colourImage)) colour = std::move(*read);
-    } else if (data.colourImage == session.colourFile) {
-        colour = session.colour;
-    }
     Result<Scene> scene = openScene(
-        {data.chunkFile, session.shaders.folder, colour ? &*colour : nullptr, session.shaders.programs},
-        settings);
+        {data.chunkFile, session.shaders.folder, data.colourImage, session.shaders.programs}, settings);
     if (!scene) return tl::unexpected(scene.error());
     return openedAs(data, std::move(*scene));
 }
@@ -432,13 +409,9 @@ Result<OpenPlanet> openBeside(const Session& session, const fs::path& file, cons
     return openBeside(session, *data, settings);
 }
 
-void exchangeShown(Session& session, OpenPlanet& other, const Log& log) {
+void exchangeShown(Session& session, OpenPlanet& other) {
     std::swap(session.showsPrevious ? *session.previous : *session.open, other);
-    const DataSet& shown = shownPlanet(session)->data;
-    if (!session.showsPrevious) session.data = shown;
-    if (shown.colourImage == session.colourFile) return;
-    session.colour = readColour(shown.colourImage, log);
-    session.colourFile = shown.colourImage;
+    if (!session.showsPrevious) session.data = shownPlanet(session)->data;
 }
 
 namespace {
@@ -496,7 +469,7 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     view.source = data.source;
     view.chunkFile = data.chunkFile;
     view.isFirstLook = open && open->isFirstLook;
-    view.hasColourImage = open && open->scene.hasColourImage;
+    view.hasColourImage = open && (open->scene.hasColourImage || !open->scene.colourImage.empty());
     view.hasPreviousBake = session.previous.has_value();
     view.showsPreviousBake = session.showsPrevious;
     if (session.previous) view.previousName = summaryOf(*session.previous);

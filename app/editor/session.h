@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "app/base/log.h"
-#include "app/base/picture.h"
 #include "app/data/bake_job.h"
 #include "app/data/data_set.h"
 #include "app/data/source_jobs.h"
@@ -59,8 +58,6 @@ struct SessionShaders {
 struct Session {
     DataSet data;  // the data set that is shown or will be
     SessionShaders shaders;
-    std::optional<Picture> colour;
-    std::filesystem::path colourFile;              // the source of colour
     std::optional<OpenPlanet> open;                // none until the first data set is open
     std::optional<OpenPlanet> previous;            // the previous bake, for comparison
     bool showsPrevious = false;                    // only if there is a previous one
@@ -107,7 +104,7 @@ planet::Result<OpenPlanet> openBeside(const Session& session, const std::filesys
 planet::Result<OpenPlanet> openBeside(const Session& session, const DataSet& data,
                                       const ViewSettings& settings);
 // Swaps other and the shown planet. Requires a shown planet.
-void exchangeShown(Session& session, OpenPlanet& other, const Log& log);
+void exchangeShown(Session& session, OpenPlanet& other);
 
 // Returns the planet to draw, which may be that of the previous bake; null if there is none.
 const OpenPlanet* shownPlanet(const Session& session);

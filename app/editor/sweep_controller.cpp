@@ -7,6 +7,7 @@
 
 #include "app/base/new_file.h"
 #include "app/base/output_file.h"
+#include "app/base/picture_file.h"
 #include "app/base/places.h"
 #include "app/data/write_check.h"
 #include "app/editor/overloaded.h"

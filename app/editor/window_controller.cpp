@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/base/new_file.h"
+#include "app/base/picture_file.h"
 #include "app/base/places.h"
 #include "app/editor/overloaded.h"
 #include "app/report/session_report.h"
@@ -32,7 +33,7 @@ std::string lineOf(const WindowContent& content) {
     const OpenPlanet& open = *shownPlanet(content.session);
     const double radiusM = open.scene.planet->tree().shape.radiusM;
     return shotLine(open.data.chunkFile, planet::poseFromView(view, radiusM), {view.widthPx, view.heightPx},
-                    content.settings.view, content.session.colourFile);
+                    content.settings.view, open.data.colourImage);
 }
 
 void copyCommandLine(const Window& window, const WindowContent& content, Notices& notices) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/base/picture.h"
 #include "app/measure/crack_measurement.h"
 #include "app/scene/scene.h"
 

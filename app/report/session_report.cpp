@@ -9,6 +9,7 @@
 
 #include "app/base/new_file.h"
 #include "app/base/output_file.h"
+#include "app/base/picture_file.h"
 #include "app/base/text.h"
 #include "app/settings/settings_text.h"
 #include "planet/format/chunk_file_types.h"

@@ -63,23 +63,20 @@ planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSet
     if (!context) return tl::unexpected(context.error());
     auto scene = openScene(config, settings);
     if (!scene) return tl::unexpected(scene.error());
+    if (drawsColourImage(*scene, settings.surface)) {
+        if (const planet::Result<void> read = readColourImage(*scene); !read)
+            return tl::unexpected(read.error());
+    }
     const int most = std::max(scene->renderer.chunks().capabilities().samples, 1);
     auto target = planet::gl::RenderTarget::create(size.widthPx, size.heightPx, std::min(samples, most));
     if (!target) return tl::unexpected(target.error());
     return Offscreen{std::move(*context), std::move(*target), std::move(*scene)};
 }
 
-planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::path& file,
-                                                       const std::filesystem::path& colourImage) {
-    std::filesystem::path picture = colourImage;
-    if (picture.empty()) {
-        const planet::Result<DataSet> set = findDataSet(file, {});
-        if (!set) return tl::unexpected(set.error());
-        picture = set->colourImage;
-    }
-    if (picture.empty()) return std::optional<Picture>();
-    return readPlanetPicture(picture).map(
-        [](Picture&& read) { return std::optional<Picture>(std::move(read)); });
+planet::Result<std::filesystem::path> colourImageToDraw(const std::filesystem::path& file,
+                                                        const std::filesystem::path& named) {
+    if (!named.empty()) return named;
+    return findDataSet(file, {}).map([](const DataSet& set) { return set.colourImage; });
 }
 
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/base/picture.h"
 #include "app/data/leaf_depths.h"
 #include "app/scene/scene.h"
 #include "app/settings/camera_text.h"
@@ -23,13 +24,13 @@ struct Offscreen {
     std::optional<LeafDepths> depths{};             // read when a tint first needs them
 };
 
+// Reads the colour image now if the settings draw it; an unreadable one is an Error.
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSettings& settings,
                                         const PictureSize& size, int samples);
 
-// Reads the colour image of a planet: the named one, otherwise the one beside its file; nothing if there is
-// none.
-planet::Result<std::optional<Picture>> colourPictureOf(const std::filesystem::path& file,
-                                                       const std::filesystem::path& colourImage);
+// Returns the colour image of a planet: the named one, otherwise the one beside its file; empty if there is none.
+planet::Result<std::filesystem::path> colourImageToDraw(const std::filesystem::path& file,
+                                                        const std::filesystem::path& named);
 
 // Draws the last selection with its tints and lines, and waits until the GPU has finished.
 planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& view,

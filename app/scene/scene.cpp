@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "app/base/picture_file.h"
 #include "app/base/stopwatch.h"
 #include "app/scene/overlay_lines.h"
 #include "app/scene/scene_settings.h"
@@ -54,6 +55,13 @@ void fitLayers(Scene& scene, const LayerSettings& layers, planet::gl::LayerDrawi
     if (!planet::gl::isUsed(layers.use, drawsByCpu(scene))) return;
     fitLayerPictures(layers.set, layerFolderOf(layers.file), scene.renderer.chunks(), scene.layers);
     drawing.pictures = picturesOf(layers.set, scene.layers);
+}
+
+// Reads the colour image when it is first drawn, because that takes as long as opening a planet.
+void fitColourImage(Scene& scene, const SurfaceSettings& surface) {
+    if (scene.colourImage.empty() || !drawsColourImage(scene, surface)) return;
+    if (const planet::Result<void> read = readColourImage(scene); !read)
+        scene.problems.push_back(read.error().message);
 }
 
 // Returns the settings without the features that are too slow here.
@@ -106,19 +114,32 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& s
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
     scene.identity = std::make_shared<const int>(0);
-    if (config.colour) {
-        const planet::Result<void> made = scene.renderer.chunks().setColourImage(
-            config.colour->rgb, config.colour->width, config.colour->height);
-        if (!made)
-            scene.problems.push_back(fmt::format(
-                "The colour image cannot be drawn, using the height ramp instead: {}", made.error().message));
-        scene.hasColourImage = made.has_value();
-    }
+    scene.colourImage = config.colourImage;
     // Only the renderer knows whether the CPU draws. applyLiveSettings reports what is refused here.
     if (auto applied = applyPaging(scene, pagingSettingsOf(settings, false, std::nullopt, drawsByCpu(scene)));
         !applied)
         scene.refusedPaging.reset();
     return scene;
+}
+
+bool drawsColourImage(const Scene& scene, const SurfaceSettings& surface) {
+    const bool drawsOwn = surface.streamed && scene.planet->colour() && !scene.renderer.lacksColourPool();
+    return surface.surface == planet::gl::SurfaceColour::Image && !drawsOwn;
+}
+
+planet::Result<void> readColourImage(Scene& scene) {
+    const std::filesystem::path file = std::exchange(scene.colourImage, {});
+    if (file.empty()) return {};
+    const planet::Result<Picture> image = readPlanetPicture(file);
+    if (!image) return tl::unexpected(image.error());
+    const planet::Result<void> made =
+        scene.renderer.chunks().setColourImage(image->rgb, image->width, image->height);
+    scene.hasColourImage = made.has_value();
+    return made.map_error([&](planet::Error error) {
+        error.message = fmt::format("{}: cannot be drawn, using the height ramp instead: {}", file.string(),
+                                    error.message);
+        return error;
+    });
 }
 
 planet::Result<void> applyLiveSettings(Scene& scene, const ViewSettings& asked, bool pagingPaused,
@@ -162,7 +183,10 @@ void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings&
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;
     fitLayers(scene, settings.surface.layers, render.layers);
+    fitColourImage(scene, settings.surface);
     scene.renderer.draw(*scene.planet, renderView, render, {.items = items, .tints = tints, .wait = wait});
+    // The GPU may have had no room for the planet's own colours.
+    fitColourImage(scene, settings.surface);
     traceClipmap(scene.renderer.chunks(), scene.planet->lastStep().nowS, scene.clipmap);
     scene.drawCpuMs += watch.elapsedMs();
     addCounters(scene.renderer.chunks().counters(), scene.drawn);

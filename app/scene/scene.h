@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 
-#include "app/base/picture.h"
 #include "app/data/layer_pictures.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/clipmap_trace.h"
@@ -23,7 +22,8 @@ namespace worldy {
 struct Scene {
     std::unique_ptr<planet::Planet> planet;
     planet::gl::PlanetRenderer renderer;
-    bool hasColourImage = false;
+    std::filesystem::path colourImage{};  // still to be read; empty: there is none, or it was read
+    bool hasColourImage = false;          // the renderer has it
     // Sums over all draws since the last step; the observer draws a second picture per frame.
     double drawCpuMs = 0;
     planet::gl::RenderCounters drawn{};
@@ -41,11 +41,17 @@ struct Scene {
 struct SceneConfig {
     std::filesystem::path chunkFile;
     std::filesystem::path shaderFolder{};                   // empty: the built-in shaders
-    const Picture* colour = nullptr;                        // null: a colour ramp by height
+    std::filesystem::path colourImage{};                    // empty: a colour ramp by height
     std::shared_ptr<planet::gl::ChunkPrograms> programs{};  // see planet::gl::RendererConfig
 };
 
 planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& settings);
+
+// Returns whether settings draw the colour image: a planet has no colours of its own, or does not draw them.
+bool drawsColourImage(const Scene& scene, const SurfaceSettings& surface);
+// Reads the colour image, if it is still to be read. Otherwise drawScene does so when it is first drawn, and tells a
+// problem.
+planet::Result<void> readColourImage(Scene& scene);
 
 // The loading priority of an observer with its own selection, relative to the LOD view.
 inline constexpr double observerPriorityFactor = 0.5;

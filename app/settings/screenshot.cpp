@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/base/new_file.h"
+#include "app/base/picture_file.h"
 #include "app/base/places.h"
 #include "app/settings/camera_text.h"
 #include "app/settings/settings_text.h"

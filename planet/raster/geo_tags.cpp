@@ -1,5 +1,6 @@
 #include "planet/raster/geo_tags.h"
 #include "planet/base/try.h"
+#include "planet/raster/image_names.h"
 
 #include <fmt/format.h>
 #include <tiffio.h>
@@ -257,27 +258,6 @@ std::string contentOf(const std::filesystem::path& file) {
     return content;
 }
 
-// Returns the ESRI world file next to an image. Its extension is the first and last letters of the image's and a
-// w, the whole extension and a w, or wld.
-std::filesystem::path worldFileBeside(const std::filesystem::path& image) {
-    std::string extension = image.extension().string();
-    if (extension.size() < 2) return {};
-    for (char& letter : extension)
-        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    for (std::string name :
-         {std::string{'.', extension[1], extension.back(), 'w'}, extension + 'w', std::string(".wld")}) {
-        for (int i = 0; i < 2; ++i) {
-            std::filesystem::path file = image;
-            file.replace_extension(name);
-            std::error_code status;
-            if (file != image && std::filesystem::is_regular_file(file, status)) return file;
-            for (char& letter : name)
-                letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-        }
-    }
-    return {};
-}
-
 // Returns the numbers at the beginning of a text, separated by commas or spaces.
 std::vector<double> numbersIn(std::string text) {
     std::replace(text.begin(), text.end(), ',', ' ');
@@ -338,8 +318,7 @@ Result<void> takeAuxiliary(const std::filesystem::path& image, GeoTags& tags) {
 }  // namespace
 
 std::optional<double> metresIn(const std::string& unit) {
-    std::string name = unit;
-    for (char& letter : name) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    const std::string name = lowerCase(unit);
     for (const char* metre : {"", "m", "metre", "meter", "metres", "meters"}) {
         if (name == metre) return 1;
     }
@@ -350,15 +329,6 @@ std::optional<double> metresIn(const std::string& unit) {
         if (name == foot) return 1200.0 / 3937;
     }
     return std::nullopt;
-}
-
-std::vector<std::filesystem::path> sidecarsOf(const std::filesystem::path& image) {
-    std::vector<std::filesystem::path> files;
-    if (const std::filesystem::path world = worldFileBeside(image); !world.empty()) files.push_back(world);
-    std::error_code status;
-    const std::filesystem::path auxiliary = image.string() + ".aux.xml";
-    if (std::filesystem::is_regular_file(auxiliary, status)) files.push_back(auxiliary);
-    return files;
 }
 
 Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff) {

@@ -48,9 +48,6 @@ struct GeoTags {
 // similar) or GDAL's .aux.xml. isTiff: the file itself has tags.
 Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff);
 
-// Returns the files next to an image that geoTagsOf would read.
-std::vector<std::filesystem::path> sidecarsOf(const std::filesystem::path& image);
-
 // Returns one unit in metres, by its name in tags; nothing for an unknown name. An empty name means metres.
 std::optional<double> metresIn(const std::string& unit);
 

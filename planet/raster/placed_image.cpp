@@ -168,13 +168,6 @@ Result<void> setGrid(const std::string& file, const ImagePlace& place, double ra
 
 }  // namespace
 
-bool isRawImage(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".raw" || extension == ".r16";
-}
-
 Result<std::shared_ptr<const Raster>> openPlacedImage(const std::filesystem::path& path,
                                                       const ImagePlace& place, double radiusM,
                                                       const HeightSourceSettings& settings) {

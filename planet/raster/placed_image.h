@@ -29,7 +29,4 @@ Result<std::shared_ptr<const Raster>> openPlacedImage(const std::filesystem::pat
                                                       const ImagePlace& place, double radiusM,
                                                       const HeightSourceSettings& settings);
 
-// Returns whether a file is read as headerless 16-bit samples, by its extension.
-bool isRawImage(const std::filesystem::path& path);
-
 }  // namespace planet

@@ -18,17 +18,10 @@ namespace planet {
 
 namespace {
 
-struct DatumName {
-    std::string_view name;
-    // The grid of the geoid's height above the ellipsoid, by its name and by the one before PROJ 7.
-    std::array<const char*, 2> grids;
-};
-constexpr std::array<DatumName, 3> datumNames = {{{"ellipsoid", {nullptr, nullptr}},
-                                                  {"egm96", {"us_nga_egm96_15.tif", "egm96_15.gtx"}},
-                                                  {"egm2008", {"us_nga_egm08_25.tif", "egm08_25.gtx"}}}};
-
-const DatumName& entryOf(VerticalDatum datum) {
-    return datumNames[static_cast<std::size_t>(datum)];
+// The grid of a geoid's height above the ellipsoid, by its name and by the one before PROJ 7.
+std::array<const char*, 2> gridNamesOf(VerticalDatum datum) {
+    if (datum == VerticalDatum::Egm96) return {"us_nga_egm96_15.tif", "egm96_15.gtx"};
+    return {"us_nga_egm08_25.tif", "egm08_25.gtx"};
 }
 
 // Returns a step that adds a grid's values, times a factor, to heights.
@@ -39,14 +32,14 @@ std::string stepOf(const char* grid, int factor) {
 // Returns the name under which PROJ finds the grid of a geoid.
 Result<const char*> gridOf(VerticalDatum datum) {
     const ProjContextPtr context = makeProjContext();
-    for (const char* const grid : entryOf(datum).grids) {
+    for (const char* const grid : gridNamesOf(datum)) {
         if (ProjPtr(proj_create(context.get(), stepOf(grid, 1).c_str()))) return grid;
     }
-    const char* const wanted = entryOf(datum).grids[0];
+    const char* const wanted = gridNamesOf(datum)[0];
     return ioError(fmt::format(
         "{}: PROJ has no such grid for datum {} in {}; expected it from \"projsync --file {}\" "
         "(Debian's proj-data has only egm96_15.gtx), or offset_m in the layer instead of the grid",
-        wanted, entryOf(datum).name, proj_info().searchpath, wanted));
+        wanted, nameOf(datum), proj_info().searchpath, wanted));
 }
 
 // The steps of a shift: N(from) - N(to).
@@ -61,16 +54,6 @@ Result<std::string> pipelineOf(VerticalDatum from, VerticalDatum to) {
 }
 
 }  // namespace
-
-std::optional<VerticalDatum> verticalDatumNamed(std::string_view name) {
-    const auto found = std::ranges::find(datumNames, name, &DatumName::name);
-    if (found == datumNames.end()) return std::nullopt;
-    return static_cast<VerticalDatum>(found - datumNames.begin());
-}
-
-std::string_view nameOf(VerticalDatum datum) {
-    return entryOf(datum).name;
-}
 
 // Transformations that no thread is using. Another is made if there is none.
 class DatumShift::Transformations {

@@ -1,6 +1,9 @@
 // Converts heights above one vertical datum to heights above another, with PROJ's grids. Internal to the library.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,9 +22,18 @@ enum class VerticalDatum : std::uint8_t {
     Egm2008
 };
 
-// Returns the datum of a name: "ellipsoid", "egm96" or "egm2008".
-std::optional<VerticalDatum> verticalDatumNamed(std::string_view name);
-std::string_view nameOf(VerticalDatum datum);
+// The names of the datums in world files, by VerticalDatum.
+inline constexpr std::array<std::string_view, 3> verticalDatumNames = {"ellipsoid", "egm96", "egm2008"};
+
+inline std::string_view nameOf(VerticalDatum datum) {
+    return verticalDatumNames[static_cast<std::size_t>(datum)];
+}
+// Returns the datum of a name; nothing for any other text.
+inline std::optional<VerticalDatum> verticalDatumNamed(std::string_view name) {
+    const auto* const found = std::ranges::find(verticalDatumNames, name);
+    if (found == verticalDatumNames.end()) return std::nullopt;
+    return static_cast<VerticalDatum>(found - verticalDatumNames.begin());
+}
 
 // Computes the shift that turns heights above one datum into heights above another when it is added to them. A geoid
 // lies N above the ellipsoid, so a height above it is H = h - N, where h is the height above the ellipsoid, and the

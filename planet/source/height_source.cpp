@@ -13,6 +13,8 @@
 #include "planet/base/try.h"
 #include "planet/raster/gdal_formats.h"
 #include "planet/raster/gdal_raster.h"
+#include "planet/raster/image_formats.h"
+#include "planet/raster/image_names.h"
 #include "planet/raster/image_placement.h"
 #include "planet/raster/placed_image.h"
 #include "planet/source/height_quanta.h"

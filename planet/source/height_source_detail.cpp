@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "planet/base/try.h"
-#include "planet/source/layer_readings.h"
 #include "planet/source/source_parts.h"
 #include "planet/source/terrain_sources.h"
 #include "planet/source/whole_layer.h"

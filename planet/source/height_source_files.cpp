@@ -1,6 +1,5 @@
 // Finds the files of a source: those of a cube's six faces by their names, and those that match a pattern.
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <glob.h>
 
@@ -14,7 +13,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "planet/raster/geo_tags.h"
+#include "planet/raster/image_formats.h"
+#include "planet/raster/image_names.h"
 #include "planet/raster/vrt_file.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"
@@ -53,12 +53,6 @@ std::optional<int> trailingNumber(const std::string& name) {
     return number;
 }
 
-std::string lowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool isHeightExtension(const std::string& extension) {
     return lowerCase(extension) == ".raw" || isImageExtension(extension);
 }
@@ -86,20 +80,6 @@ std::string extensionOfFaces(const std::filesystem::path& folder, const std::str
 }
 
 }  // namespace
-
-bool isImageExtension(const std::string& extension) {
-    if (extension.size() < 2) return false;
-    const std::string wanted = lowerCase(extension.substr(1));
-    // The list is "png:png;tiff:tif,tiff,env;...".
-    static const std::string known = OIIO::get_string_attribute("extension_list");
-    for (std::size_t at = known.find(wanted); at != std::string::npos; at = known.find(wanted, at + 1)) {
-        const std::size_t end = at + wanted.size();
-        const bool starts = at > 0 && (known[at - 1] == ':' || known[at - 1] == ',');
-        const bool ends = end == known.size() || known[end] == ',' || known[end] == ';';
-        if (starts && ends) return true;
-    }
-    return false;
-}
 
 bool isFilePattern(const std::filesystem::path& path) {
     std::error_code problem;

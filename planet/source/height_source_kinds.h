@@ -67,9 +67,6 @@ bool isFilePattern(const std::filesystem::path& path);
 // parts, each of which may be a pattern.
 std::vector<std::filesystem::path> filesOfPattern(const std::filesystem::path& pattern);
 
-// Returns whether OpenImageIO reads files with an extension such as ".tif".
-bool isImageExtension(const std::string& extension);
-
 // Six files named [name][size]_[face].[ext], in the order of allFaces; some may be missing.
 struct FaceFiles {
     std::string stem;               // "earth4097"

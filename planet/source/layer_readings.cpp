@@ -107,19 +107,4 @@ Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onG
     return reading;
 }
 
-Result<SourceReading> readGridPoint(
-    const std::function<Result<void>(const SampleTile& tile, std::span<float> out)>& sample,
-    int naturalFaceSize, const Geographic& place) {
-    const FacePoint point = facePointFromDirection(directionFromGeographic(place));
-    const int cells = naturalFaceSize - 1;
-    const auto nearest = [&](double along) {
-        return std::clamp(static_cast<int>(std::lround((along + 1) / 2 * cells)), 0, cells);
-    };
-    float height = 0;
-    TRY(sample({point.face, cells, nearest(point.u), nearest(point.v), 1, 1}, std::span(&height, 1)));
-    SourceReading reading;
-    reading.heightM = static_cast<double>(height);
-    return reading;
-}
-
 }  // namespace planet

@@ -26,9 +26,4 @@ PiecePlaces placesOf(const Geographic& place);
 // Reads the sample nearest to a place on the grid: the first one of onGrid. Its height is as the file says.
 Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onGrid);
 
-// Returns the height of a source at the nearest point of the grid of its natural face size.
-Result<SourceReading> readGridPoint(
-    const std::function<Result<void>(const SampleTile& tile, std::span<float> out)>& sample,
-    int naturalFaceSize, const Geographic& place);
-
 }  // namespace planet

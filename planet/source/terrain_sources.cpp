@@ -1,7 +1,6 @@
 #include "planet/source/terrain_sources.h"
 
 #include "planet/base/try.h"
-#include "planet/source/layer_readings.h"
 #include "planet/source/whole_layer.h"
 
 namespace planet {

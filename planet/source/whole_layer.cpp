@@ -1,10 +1,13 @@
 #include "planet/source/whole_layer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "planet/base/try.h"
+#include "planet/sphere/cube_sphere.h"
 
 namespace planet {
 
@@ -29,6 +32,21 @@ SourceLayer wholeLayer(const HeightSource& source, LayerKind kind, double spacin
     layer.missingCount = source.missingCount;
     layer.coversPlanet = true;
     return layer;
+}
+
+Result<SourceReading> readGridPoint(
+    const std::function<Result<void>(const SampleTile& tile, std::span<float> out)>& sample,
+    int naturalFaceSize, const Geographic& place) {
+    const FacePoint point = facePointFromDirection(directionFromGeographic(place));
+    const int cells = naturalFaceSize - 1;
+    const auto nearest = [&](double along) {
+        return std::clamp(static_cast<int>(std::lround((along + 1) / 2 * cells)), 0, cells);
+    };
+    float height = 0;
+    TRY(sample({point.face, cells, nearest(point.u), nearest(point.v), 1, 1}, std::span(&height, 1)));
+    SourceReading reading;
+    reading.heightM = static_cast<double>(height);
+    return reading;
 }
 
 }  // namespace planet

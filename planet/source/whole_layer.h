@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "planet/base/result.h"
 #include "planet/source/height_source_types.h"
@@ -16,5 +17,10 @@ std::shared_ptr<const SourceLayers> singleLayer(
 
 // Describes a source that covers the planet; its sample and missing counts must be set.
 SourceLayer wholeLayer(const HeightSource& source, LayerKind kind, double spacingRad);
+
+// Returns the height of a source at the nearest point of the grid of its natural face size.
+Result<SourceReading> readGridPoint(
+    const std::function<Result<void>(const SampleTile& tile, std::span<float> out)>& sample,
+    int naturalFaceSize, const Geographic& place);
 
 }  // namespace planet

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planet/base/try.h"
+#include "planet/raster/image_names.h"
 #include "planet/raster/raster_mosaic.h"
 #include "planet/source/height_source.h"
 #include "planet/source/height_source_kinds.h"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "tests/program/small_planet.h"
 
 namespace worldy {

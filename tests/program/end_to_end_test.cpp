@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "planet/gl/device/offscreen_context.h"
 #include "tests/program/small_planet.h"
 

@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "app/settings/screenshot.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"

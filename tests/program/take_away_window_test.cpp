@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
 

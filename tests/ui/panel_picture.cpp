@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "planet/gl/device/offscreen_context.h"
 #include "planet/gl/device/render_target.h"
 #include "tests/support/editor_fixture.h"

@@ -68,6 +68,9 @@ public:
     void draw(Planet& planet, const View& view, const RenderSettings& settings,
               const PlanetDrawing& drawing = {});
 
+    // Returns whether the last drawing could not make the pool for the planet's own colours.
+    bool lacksColourPool() const { return colourPool_ && !drawsColours_; }
+
     // Returns whether there is a pool for colours or normals, so that they are drawn.
     bool drawsTiles(BlockKind kind) const {
         return kind == BlockKind::Colours ? drawsColours_ : drawsNormals_;

@@ -87,10 +87,15 @@ void LayerTextures::fill(std::span<const LayerPicture> pictures, int size) {
     }
     for (const GLuint texture : {albedo_.name(), surface_.name()}) {
         glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
-        glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+        // The checkerboard alone is not drawn, and a software renderer compiles code for its mipmaps.
+        if (pictures.empty())
+            glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
+        else
+            glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
     }
     const std::size_t texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-    bytes_ = 2 * 4 * static_cast<std::size_t>(slices) * (4 * texels - 1) / 3;
+    const std::size_t withMipmaps = pictures.empty() ? texels : (4 * texels - 1) / 3;
+    bytes_ = 2 * 4 * static_cast<std::size_t>(slices) * withMipmaps;
 }
 
 }  // namespace planet::gl

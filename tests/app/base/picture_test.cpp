@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include "app/base/picture_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace worldy {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "app/settings/layer_file.h"
 #include "planet/bake/bake.h"
 #include "planet/source/height_source.h"

@@ -88,13 +88,13 @@ TEST_F(CompareControllerTest, aChangedSettingChangesAAloneUntilTheyAreSwapped) {
     EXPECT_GT(*view.now[0].worstEpsPx, *view.now[1].worstEpsPx);
     EXPECT_GT(controller_.difference->pixels, 0u);
 
-    settings_ = swapCompared(controller_, session, settings_, log_);
+    settings_ = swapCompared(controller_, session, settings_);
     EXPECT_EQ(settings_.lod.tauPx, 0.5);
     EXPECT_EQ(controller_.other->settings.lod.tauPx, 16);
     // The camera and how the two are shown stay as they are.
     settings_.compare.mode = CompareMode::Difference;
     settings_.camera.fovDeg = 77;
-    settings_ = swapCompared(controller_, session, settings_, log_);
+    settings_ = swapCompared(controller_, session, settings_);
     EXPECT_EQ(settings_.compare.mode, CompareMode::Difference);
     EXPECT_EQ(settings_.camera.fovDeg, 77);
 }
@@ -111,7 +111,7 @@ TEST_F(CompareControllerTest, anotherFileAsBIsSwappedWithItsSettings) {
     EXPECT_EQ(sideNames(shown(session))[1].substr(0, 12), "B  hills.tif");
     controller_.other->planet.data.source = source;
     const planet::Planet* before = session.open->scene.planet.get();
-    settings_ = swapCompared(controller_, session, settings_, log_);
+    settings_ = swapCompared(controller_, session, settings_);
     EXPECT_EQ(session.data.chunkFile, coarse);
     EXPECT_EQ(controller_.other->planet.scene.planet.get(), before);
     frame(session);

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "app/base/picture.h"
+#include "app/base/picture_file.h"
 #include "tests/app/session_fixture.h"
 #include "tests/support/sanitized.h"
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/base/picture_file.h"
 #include "app/editor/sweep_controller.h"
 #include "tests/app/session_fixture.h"
 

@@ -165,7 +165,7 @@ protected:
         if (opened) beside_.emplace(std::move(*opened));
     }
     void swapBeside(Session& session) {
-        if (beside_ && shownPlanet(session)) exchangeShown(session, *beside_, log_);
+        if (beside_ && shownPlanet(session)) exchangeShown(session, *beside_);
     }
 
     void startComparison() {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/base/picture_file.h"
 #include "app/scene/scene.h"
 #include "planet/gl/device/render_target.h"
 #include "tests/app/session_fixture.h"
@@ -102,10 +103,12 @@ protected:
     }
 
     Drawn draw() {
-        const Picture image{16, 8, std::vector<std::uint8_t>(std::size_t{16} * 8 * 3, 200)};
+        const std::filesystem::path image = folder_ / "colour.png";
+        if (!writePicture({16, 8, std::vector<std::uint8_t>(std::size_t{16} * 8 * 3, 200)}, image))
+            return {.refusal = "no picture"};
         auto target = planet::gl::RenderTarget::create(view_.widthPx, view_.heightPx);
         if (!target) return {.refusal = target.error().message};
-        auto scene = openScene({.chunkFile = file_, .colour = &image}, settings_);
+        auto scene = openScene({.chunkFile = file_, .colourImage = image}, settings_);
         if (!scene) return {.refusal = scene.error().message};
         Drawn drawn;
         settleScene(*scene, view_, settings_, 60);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 
+#include "app/base/picture_file.h"
 #include "app/scene/offscreen.h"
 #include "app/scene/overlay_colours.h"
 #include "app/scene/scene_settings.h"
@@ -315,6 +316,38 @@ protected:
 
     planet::View view_ = viewAt(1e6);
 };
+
+TEST_F(ClipmapScene, theColourImageIsReadWhenItIsDrawn) {
+    Scene scene = openColoured();
+    const std::filesystem::path image = folder_ / "colour.png";
+    ASSERT_TRUE(writePicture({2, 1, {255, 0, 0, 255, 0, 0}}, image));
+    scene.colourImage = image;
+    settledPicture(scene, ColourMode::Tiles);
+    EXPECT_FALSE(scene.hasColourImage);
+    settings_.surface.surface = planet::gl::SurfaceColour::HeightRamp;
+    settings_.surface.streamed = false;
+    settledPicture(scene, ColourMode::Tiles);
+    EXPECT_FALSE(scene.hasColourImage);
+
+    settings_.surface.surface = planet::gl::SurfaceColour::Image;
+    const std::vector<std::uint8_t> red = settledPicture(scene, ColourMode::Tiles);
+    EXPECT_TRUE(scene.hasColourImage);
+    EXPECT_EQ(*std::max_element(red.begin(), red.end()), 255);
+    for (std::size_t i = 0; i < red.size(); i += 3) EXPECT_EQ(red[i + 1], 0);
+    EXPECT_THAT(takeProblems(scene), testing::IsEmpty());
+}
+
+TEST_F(ClipmapScene, anUnreadableColourImageIsToldOnce) {
+    Scene scene = openColoured();
+    scene.colourImage = folder_ / "none.png";
+    settledPicture(scene, ColourMode::Tiles);
+    EXPECT_THAT(takeProblems(scene), testing::IsEmpty());
+    settings_.surface.streamed = false;
+    settledPicture(scene, ColourMode::Tiles);
+    EXPECT_THAT(takeProblems(scene), testing::ElementsAre(testing::HasSubstr("none.png: cannot be read")));
+    settledPicture(scene, ColourMode::Tiles);
+    EXPECT_THAT(takeProblems(scene), testing::IsEmpty());
+}
 
 TEST_F(ClipmapScene, switchesLiveAndGivesItsMemoryBack) {
     Scene scene = openColoured();

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "app/base/picture_file.h"
 #include "app/settings/camera_text.h"
 #include "app/settings/settings_text.h"
 #include "tests/support/temporary_folder.h"
