@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +18,7 @@
 #include "app/base/exit_code.h"
 #include "app/base/places.h"
 #include "app/base/report.h"
+#include "app/cli/bench_comparison.h"
 #include "app/cli/bench_parts.h"
 #include "app/data/bake_progress.h"
 #include "app/data/own_colour.h"
@@ -93,13 +95,23 @@ std::string spreadText(const Spread& spread) {
     return fmt::format("{} ({}..{})", figure(spread.median), figure(spread.minimum), figure(spread.maximum));
 }
 
+// Returns the aim and whether it is missed; empty if there is none.
+std::string aimText(const BenchRow& row) {
+    if (!row.aim) return "";
+    const double reached = row.aim->isOfRatio ? row.ratio.median : row.value.median;
+    const bool isMet = row.aim->isUpperBound ? reached <= row.aim->bound : reached >= row.aim->bound;
+    return fmt::format("{}(aim: at {} {:g}{}{})", row.yardstick.empty() ? "" : " ",
+                       row.aim->isUpperBound ? "most" : "least", row.aim->bound,
+                       row.aim->isOfRatio ? "" : " " + row.unit, isMet ? "" : "; missed");
+}
+
 void print(const Section& section) {
     fmt::print("\n{}\n", section.title);
     for (const BenchRow& row : section.rows) {
         const std::string ratio =
             row.yardstick.empty() ? "" : fmt::format("{} x {}", spreadText(row.ratio), row.yardstick);
-        fmt::print("  {:<44}{:<16}{:>28} {:<11}{}\n", row.subject, row.quantity, spreadText(row.value),
-                   row.unit, ratio);
+        fmt::print("  {:<44}{:<16}{:>28} {:<11}{}{}\n", row.subject, row.quantity, spreadText(row.value),
+                   row.unit, ratio, aimText(row));
     }
     flushStandardOutput();
 }
@@ -119,6 +131,10 @@ Json jsonOf(const Section& section) {
         if (!row.yardstick.empty()) {
             entry["times"] = jsonOf(row.ratio);
             entry["times"]["of"] = row.yardstick;
+        }
+        if (row.aim) {
+            Json& aimed = row.aim->isOfRatio ? entry["times"] : entry;
+            aimed["aim"] = {{row.aim->isUpperBound ? "at_most" : "at_least", row.aim->bound}};
         }
         rows.push_back(std::move(entry));
     }
@@ -196,12 +212,97 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
              return benchColours(ownColourImage(options.source.empty() ? earthElevation() : options.source),
                                  options, folder);
          }},
+        {"start", "Start of the program", [&] { return benchStart(planets.front(), options, folder); }},
     };
+}
+
+const char* nameOf(BenchVerdict verdict) {
+    switch (verdict) {
+        case BenchVerdict::WithinNoise:
+            return "within_noise";
+        case BenchVerdict::Better:
+            return "better";
+        case BenchVerdict::Worse:
+            return "worse";
+        case BenchVerdict::Differs:
+            return "differs";
+    }
+    return "";
+}
+
+std::string verdictText(const BenchChange& change) {
+    if (change.verdict == BenchVerdict::WithinNoise) return "";
+    const char* const way = change.verdict == BenchVerdict::Differs  ? "differs"
+                            : change.verdict == BenchVerdict::Better ? "better"
+                                                                     : "WORSE";
+    return fmt::format("{}: {:+.1f} %", way, 100 * (change.factor - 1));
+}
+
+void print(const BenchComparison& comparison) {
+    std::string part;
+    for (const BenchChange& change : comparison.changes) {
+        if (std::exchange(part, change.of.part) != change.of.part) fmt::print("\n{}\n", part);
+        const BenchRow& row = change.of.row;
+        fmt::print("  {:<44}{:<16}{:>26} -> {:<26} {:<11}{}\n", row.subject, row.quantity,
+                   spreadText(change.a), spreadText(change.b),
+                   change.isRatio ? "x " + row.yardstick : row.unit, verdictText(change));
+    }
+    for (const ReportedRow& only : comparison.onlyA)
+        fmt::print("only in the first: {}, {}, {}\n", only.part, only.row.subject, only.row.quantity);
+    for (const ReportedRow& only : comparison.onlyB)
+        fmt::print("only in the second: {}, {}, {}\n", only.part, only.row.subject, only.row.quantity);
+    const auto worse = std::ranges::count(comparison.changes, BenchVerdict::Worse, &BenchChange::verdict);
+    fmt::print("\n{} of {} figures got worse by more than their noise\n", worse, comparison.changes.size());
+}
+
+Json jsonOf(const BenchComparison& comparison, const std::vector<std::filesystem::path>& files) {
+    Json report = {{"a", files[0].string()}, {"b", files[1].string()}, {"changes", Json::array()}};
+    for (const BenchChange& change : comparison.changes) {
+        const BenchRow& row = change.of.row;
+        report["changes"].push_back({{"part", change.of.part},
+                                     {"subject", row.subject},
+                                     {"quantity", row.quantity},
+                                     {"unit", change.isRatio ? "times " + row.yardstick : row.unit},
+                                     {"a", jsonOf(change.a)},
+                                     {"b", jsonOf(change.b)},
+                                     {"factor", change.factor},
+                                     {"verdict", nameOf(change.verdict)}});
+    }
+    const auto listed = [](const std::vector<ReportedRow>& rows) {
+        Json list = Json::array();
+        for (const ReportedRow& row : rows)
+            list.push_back(
+                {{"part", row.part}, {"subject", row.row.subject}, {"quantity", row.row.quantity}});
+        return list;
+    };
+    report["only_in_a"] = listed(comparison.onlyA);
+    report["only_in_b"] = listed(comparison.onlyB);
+    return report;
+}
+
+Result<bool> compareReports(const BenchOptions& options) {
+    std::array<std::vector<ReportedRow>, 2> reports;
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        Result<std::vector<ReportedRow>> read = readBenchReport(options.compared[i]);
+        if (!read) return tl::unexpected(read.error());
+        reports[i] = *std::move(read);
+    }
+    const BenchComparison comparison = compareBenchReports(reports[0], reports[1]);
+    if (comparison.changes.empty()) {
+        return planet::badInput(
+            fmt::format("{}: has no figure that {} has too; expected two reports of the same parts",
+                        options.compared[1].string(), options.compared[0].string()));
+    }
+    if (!options.report.json) print(comparison);
+    const bool isWorse = std::ranges::find(comparison.changes, BenchVerdict::Worse, &BenchChange::verdict) !=
+                         comparison.changes.end();
+    return writeReport(options.report, jsonOf(comparison, options.compared)).map([&] { return !isWorse; });
 }
 
 }  // namespace
 
-Result<void> runBench(const BenchOptions& options) {
+Result<bool> runBench(const BenchOptions& options) {
+    if (!options.compared.empty()) return compareReports(options);
     const Result<planet::HeightSource> source = planet::openHeightSource(
         options.source.empty() ? earthElevation() : options.source, options.sourceSettings);
     if (!source) return tl::unexpected(source.error());
@@ -228,7 +329,9 @@ Result<void> runBench(const BenchOptions& options) {
         sections.push_back({part.name, part.title, std::move(*rows)});
         if (!options.report.json) print(sections.back());
     }
-    return writeReport(options.report, jsonOf(options, source->description, *machine, sections));
+    return writeReport(options.report, jsonOf(options, source->description, *machine, sections)).map([] {
+        return true;
+    });
 }
 
 }  // namespace worldy

@@ -7,8 +7,8 @@
 
 namespace worldy {
 
-// Runs the benchmarks. The Error names the source, or what the machine lacks. Bakes into a temporary folder,
-// which is removed afterwards.
-planet::Result<void> runBench(const BenchOptions& options);
+// Runs the benchmarks and returns true. Or compares two reports, and returns false if the second is worse anywhere. The
+// Error names the file, or what the machine lacks. Bakes into a temporary folder, which is removed afterwards.
+planet::Result<bool> runBench(const BenchOptions& options);
 
 }  // namespace worldy

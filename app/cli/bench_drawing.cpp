@@ -220,7 +220,9 @@ void addSelection(planet::Planet& planet, const planet::View& view, double tauPx
         fmt::format("{}, {} nodes visited",
                     tauPx == everyLeafPx ? "all leaves, high altitude" : fmt::format("tau {:g} px", tauPx),
                     selection.counters.visited);
-    rows.push_back({subject, "per visited node", "ns", spreadOf(ns)});
+    BenchRow perNode{subject, "per visited node", "ns", spreadOf(ns)};
+    perNode.aim = {.bound = tauPx == everyLeafPx ? 100.0 : 60.0};
+    rows.push_back(std::move(perNode));
     rows.push_back({subject, "per frame", "ms", spreadOf(ms)});
 }
 
@@ -284,6 +286,7 @@ BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOption
     std::vector<BenchRow> rows;
     addTimes({"selection and draw", "the same triangles, static"}, timeInTurn(frames, options.rounds),
              "static", rows);
+    rows.front().aim = {.bound = 1.2, .isOfRatio = true};
     rows.push_back({"either", "triangles", "", exactly(static_cast<double>(mesh->indexCount) / 3)});
     return rows;
 }

@@ -13,8 +13,8 @@
 
 namespace worldy {
 
-inline constexpr std::array<std::string_view, 8> benchParts = {"lod",  "dynamic", "selection", "page_in",
-                                                               "bake", "verify",  "file_size", "colours"};
+inline constexpr std::array<std::string_view, 9> benchParts = {
+    "lod", "dynamic", "selection", "page_in", "bake", "verify", "file_size", "colours", "start"};
 
 struct BenchOptions {
     std::filesystem::path source;  // an elevation image or cube faces; empty: the built-in Earth
@@ -23,7 +23,8 @@ struct BenchOptions {
     std::vector<double> tausPx = {1, 2, 4};
     int rounds = 5;  // each round draws, reads or bakes everything once; [1, 1000]
     PictureSize size;
-    std::vector<std::string> parts;  // elements of benchParts; empty: all
+    std::vector<std::string> parts;               // elements of benchParts; empty: all
+    std::vector<std::filesystem::path> compared;  // two reports to compare instead of measuring; or empty
     ReportTo report;
 };
 

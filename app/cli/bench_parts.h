@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,13 @@ Spread spreadOf(std::vector<double> values);
 
 inline constexpr double loadTimeoutS = 600;  // for all blocks of a view
 
+// What Worldy's developers want a figure to be, on a machine like theirs if it is a value.
+struct BenchAim {
+    double bound = 0;
+    bool isUpperBound = true;
+    bool isOfRatio = false;  // to the yardstick
+};
+
 // One row of a table: a quantity of one implementation.
 struct BenchRow {
     std::string subject;   // "faces of 513, tau 2 px"
@@ -34,6 +42,7 @@ struct BenchRow {
     // The value relative to the baseline, per round; 0 if this is the baseline or there is none.
     Spread ratio{};
     std::string yardstick{};  // "every leaf"
+    std::optional<BenchAim> aim{};
 };
 
 // Returns of[i] / to[i], round by round.
@@ -69,5 +78,9 @@ BenchRows benchFileSize(const BenchPlanet& planet, const std::filesystem::path& 
 // same blocks in a loop, and the memory per tile. image empty: synthetic colours.
 BenchRows benchColours(const std::filesystem::path& image, const BenchOptions& options,
                        const std::filesystem::path& folder);
+
+// (i) Measures the program from its start to its end: commands that draw nothing, and one that draws a picture.
+BenchRows benchStart(const BenchPlanet& planet, const BenchOptions& options,
+                     const std::filesystem::path& folder);
 
 }  // namespace worldy

@@ -171,6 +171,12 @@ void addBench(CLI::App& command, BenchOptions& options) {
         .add_option("--parts", options.parts,
                     fmt::format("Parts to measure: {} (all)", fmt::join(benchParts, ", ")))
         ->check(oneOf(benchParts));
+    command
+        .add_option("--compare", options.compared,
+                    "Measures nothing and compares two reports: what got slower by more than its noise. Ends "
+                    "with 1 if anything did")
+        ->expected(2)
+        ->type_name("A.json B.json");
 }
 
 // The options of a sweep, unparsed.

@@ -83,7 +83,10 @@ CommandFiles filesOf(const BakeOptions& options) {
 
 CommandFiles filesOf(const BenchOptions& options) {
     CommandFiles files;
-    addSource(files, options.source.empty() ? earthElevation() : options.source);
+    if (options.compared.empty())
+        addSource(files, options.source.empty() ? earthElevation() : options.source);
+    else
+        files.inputs = options.compared;
     files.outputs = {{options.report.file, OutputKind::Json}};
     return files;
 }

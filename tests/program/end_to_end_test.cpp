@@ -338,6 +338,22 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     EXPECT_EQ(triangles["faces of 65, every leaf"], 6 * 64 * 64 * 2);
     EXPECT_LT(triangles["faces of 65, tau 1 px"], triangles["faces of 65, every leaf"]);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "temporary"));
+
+    const Ran same = runWorldy(folder, "bench --compare out.json out.json -o same.json");
+    EXPECT_EQ(same.exitCode, 0) << same.errors;
+    EXPECT_THAT(same.output, HasSubstr("\n0 of "));
+    EXPECT_EQ(json::parse(contentOf(folder / "same.json"))["changes"][0]["verdict"], "within_noise");
+    json slower = report;
+    for (const char* key : {"minimum", "median", "maximum"})
+        slower["parts"]["selection"][0][key] = 10 * slower["parts"]["selection"][0][key].get<double>();
+    std::ofstream(folder / "slower.json") << slower;
+    const Ran worse = runWorldy(folder, "bench --compare out.json slower.json");
+    EXPECT_EQ(worse.exitCode, 1) << worse.errors;
+    EXPECT_THAT(worse.output, HasSubstr("WORSE: +900.0 %"));
+    EXPECT_THAT(worse.output, HasSubstr("\n1 of "));
+    EXPECT_EQ(runWorldy(folder, "bench --compare out.json").exitCode, 2);
+    EXPECT_EQ(runWorldy(folder, "bench --compare out.json hills.pgm").exitCode, 2);
+    EXPECT_EQ(runWorldy(folder, "bench --compare out.json out.json -o out.json").exitCode, 2);
 }
 
 TEST(Program, NoOpenGl33EndsWithTwoAndSaysWhatIsMissing) {
