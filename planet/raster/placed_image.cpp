@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,6 +15,7 @@
 #include "planet/raster/gdal_formats.h"
 #include "planet/raster/gdal_raster.h"
 #include "planet/raster/height_raster.h"
+#include "planet/raster/image_names.h"
 
 namespace planet {
 

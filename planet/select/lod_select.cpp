@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <unordered_set>
+#include <utility>
 
 #include "planet/select/drawn_bound.h"
 #include "planet/select/screen_error.h"
@@ -92,15 +94,38 @@ float faded(const Memory& before, float last, float target) {
     return target > last ? last + before.fadeStep : last - before.fadeStep;
 }
 
-// Moves a morph from its value in the previous frame towards its target.
-float fadedMorph(const Memory& before, const ChunkId& id, const Above& above, float target) {
+// Moves a morph from its value in the previous frame towards its target. last: null if it was not drawn then.
+float fadedMorph(const Memory& before, const ChunkId& id, const Shown* last, const Above& above,
+                 float target) {
     if (!before.fades()) return target;
     if (above.justSplit) return 1;
-    if (const Shown* last = before.find(id)) return faded(before, last->morph, target);
+    if (last) return faded(before, last->morph, target);
     return before.wasSplit(id) ? 0 : target;
 }
 
-void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWaits, Selection& out) {
+// The visited nodes of a frame, by their places in Selection::touched.
+struct Walk {
+    explicit Walk(Selection& selection) : out(selection) {
+        // The last frame says how many to expect.
+        indexOf.reserve(out.touched.capacity());
+        children.reserve(out.splits.capacity());
+        placeOf.reserve(out.draw.capacity());
+        shownBefore.reserve(out.draw.capacity());
+        cellSpanM.reserve(out.draw.capacity());
+    }
+
+    Selection& out;
+    std::array<std::uint32_t, faceCount> roots{};                    // their places
+    std::vector<std::uint32_t> indexOf;                              // by place: in `draw` or in `splits`
+    std::vector<std::array<std::uint32_t, quadrantCount>> children;  // by index in `splits`: their places
+    std::vector<std::uint32_t> placeOf;                              // by index in `draw`
+    std::vector<const Shown*> shownBefore;                           // by index in `draw`; null: not drawn
+    std::vector<double> cellSpanM;                                   // by index in `draw`
+};
+
+void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWaits, std::uint32_t place,
+          Walk& walk) {
+    Selection& out = walk.out;
     const ChunkNode& node = frame.tree.nodes[seen.index];
     const double epsPx = seen.deltaM * frame.scalePx / seen.distanceM;
     const double natural = naturalMorph(frame.settings, above, seen.deltaM, epsPx);
@@ -114,9 +139,14 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     item.distanceM = static_cast<float>(seen.distanceM);
     item.deltaCM = static_cast<float>(seen.deltaM);
     item.parentDeltaM = static_cast<float>(above.deltaM);
-    item.morph = fadedMorph(frame.before, node.id, above, target);
+    const Shown* const last = frame.before.find(node.id);
+    item.morph = fadedMorph(frame.before, node.id, last, above, target);
     item.splitWaits = splitWaits;
     item.mergeWaits = above.merging;
+    walk.indexOf[place] = static_cast<std::uint32_t>(out.draw.size());
+    walk.placeOf.push_back(place);
+    walk.shownBefore.push_back(last);
+    walk.cellSpanM.push_back(cellSpanM(frame.tree.shape, node));
     out.draw.push_back(item);
     out.counters.fading += item.morph != target || splitWaits || above.merging;
     out.counters.deepestLevel = std::max<std::uint32_t>(out.counters.deepestLevel, node.id.level);
@@ -198,11 +228,23 @@ bool mergeMustWait(const Frame& frame, NodeIndex index) {
     });
 }
 
-void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& above, Selection& out) {
+// Asks for what selection reads of nodes in sequence, which a large tree rarely has in the cache.
+void prefetch(const ChunkNode* nodes, std::size_t count) {
+    constexpr std::size_t lineBytes = 64;
+    constexpr std::size_t readBytes = offsetof(ChunkNode, storedDeltaCM);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto* const bytes = reinterpret_cast<const char*>(nodes + i);
+        for (std::size_t at = 0; at < readBytes; at += lineBytes) __builtin_prefetch(bytes + at);
+    }
+}
+
+void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& above, Walk& walk) {
     const ChunkNode& node = frame.tree.nodes[index];
+    Selection& out = walk.out;
     ++out.counters.visited;
-    const std::size_t place = out.touched.size();
+    const auto place = static_cast<std::uint32_t>(out.touched.size());
     out.touched.push_back({index, NodeFate::Drawn});
+    walk.indexOf.push_back(0);
     const Culled culled = cull(frame.culling, node.bounds, open);
     if (culled != Culled::No) {
         out.touched[place].fate =
@@ -213,21 +255,97 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
     const Seen seen{index, deltaOf(node, frame.settings.metric), distanceToM(node, frame.eyeM)};
     const bool wantsToSplit = wantsSplit(frame, seen, above);
     const bool merging = !wantsToSplit && mergeMustWait(frame, index);
-    if (!wantsToSplit && !merging) return draw(frame, seen, above, false, out);
+    if (!wantsToSplit && !merging) return draw(frame, seen, above, false, place, walk);
     const ChildrenRequest wanted{index, node.id,
                                  static_cast<float>(seen.deltaM * frame.reach / seen.distanceM)};
     if (node.childrenState != ChildrenState::Resident) {
-        draw(frame, seen, above, false, out);
+        draw(frame, seen, above, false, place, walk);
         ++out.counters.waiting;
         if (node.childrenState != ChildrenState::Failed) out.requests.push_back(wanted);
         return;
     }
-    if (!merging && splitMustWait(frame.before, node.id, above)) return draw(frame, seen, above, true, out);
+    if (!merging && splitMustWait(frame.before, node.id, above))
+        return draw(frame, seen, above, true, place, walk);
     out.touched[place].fate = NodeFate::Split;
+    prefetch(&frame.tree.nodes[node.firstChild], quadrantCount);
+    const std::size_t split = out.splits.size();
+    walk.indexOf[place] = static_cast<std::uint32_t>(split);
+    walk.children.emplace_back();
     out.splits.push_back(wanted);
     const Above here{seen.deltaM * frame.scalePx / seen.distanceM, seen.deltaM,
                      frame.before.find(node.id) != nullptr, merging};
-    for (NodeIndex q = 0; q < quadrantCount; ++q) visit(frame, node.firstChild + q, open, here, out);
+    for (NodeIndex q = 0; q < quadrantCount; ++q) {
+        walk.children[split][q] = static_cast<std::uint32_t>(out.touched.size());
+        visit(frame, node.firstChild + q, open, here, walk);
+    }
+}
+
+// The places of the visited nodes beyond the edges of a node: of its level, or coarser if that one was not split.
+using PlacesBeside = std::array<std::uint32_t, edgeCount>;
+
+// What lies beyond an edge of a face's root: a face, and its quadrants beyond those of the root at that edge. The
+// quadrants are the same for the children of any two neighbours on these faces.
+struct FaceBeyond {
+    Face face = Face::PosX;
+    std::array<std::uint8_t, quadrantCount> quadrants{};
+};
+using FaceNeighbours = std::array<std::array<FaceBeyond, edgeCount>, faceCount>;
+
+FaceNeighbours findFaceNeighbours() {
+    FaceNeighbours neighbours{};
+    for (const Face face : allFaces) {
+        const ChunkId root{face, 0, 0, 0};
+        for (const Edge edge : allEdges) {
+            FaceBeyond& beyond = neighbours[static_cast<std::size_t>(face)][static_cast<std::size_t>(edge)];
+            beyond.face = neighbourOf(root, edge).face;
+            for (int q = 0; q < quadrantCount; ++q)
+                beyond.quadrants[static_cast<std::size_t>(q)] =
+                    static_cast<std::uint8_t>(quadrantOf(neighbourOf(childOf(root, q), edge)));
+        }
+    }
+    return neighbours;
+}
+
+// Finds the neighbours of all visited nodes, parents first, from those of their parents. This takes no search in the
+// tree, and no hashing.
+std::vector<PlacesBeside> placesBeside(const Walk& walk) {
+    static const FaceNeighbours faceNeighbours = findFaceNeighbours();
+    const std::vector<VisitedNode>& touched = walk.out.touched;
+    std::vector<PlacesBeside> beside(touched.size());
+    for (const Face face : allFaces) {
+        const auto f = static_cast<std::size_t>(face);
+        const std::uint32_t begin = walk.roots[f];
+        const std::uint32_t end =
+            f + 1 < faceCount ? walk.roots[f + 1] : static_cast<std::uint32_t>(touched.size());
+        const std::array<FaceBeyond, edgeCount>& facesBeyond = faceNeighbours[f];
+        for (std::size_t e = 0; e < edgeCount; ++e)
+            beside[begin][e] = walk.roots[static_cast<std::size_t>(facesBeyond[e].face)];
+        for (std::uint32_t place = begin; place < end; ++place) {
+            if (touched[place].fate != NodeFate::Split) continue;
+            const std::array<std::uint32_t, quadrantCount>& children = walk.children[walk.indexOf[place]];
+            for (std::size_t e = 0; e < edgeCount; ++e) {
+                // Edges are in the order west, east, south, north, and quadrants count along u first.
+                const std::size_t flipped = e < 2 ? 1 : 2;
+                const bool isHighEdge = e % 2 == 1;
+                const std::uint32_t other = beside[place][e];
+                const bool otherIsSplit = touched[other].fate == NodeFate::Split;
+                const bool isOnFace = begin <= other && other < end;
+                for (std::size_t q = 0; q < quadrantCount; ++q) {
+                    const bool isAtEdge = ((q & flipped) != 0) == isHighEdge;
+                    std::uint32_t& found = beside[children[q]][e];
+                    if (!isAtEdge) {
+                        found = children[q ^ flipped];
+                    } else if (!otherIsSplit) {
+                        found = other;
+                    } else {
+                        const std::size_t beyond = isOnFace ? q ^ flipped : facesBeyond[e].quadrants[q];
+                        found = walk.children[walk.indexOf[other]][beyond];
+                    }
+                }
+            }
+        }
+    }
+    return beside;
 }
 
 // The neighbour beyond an edge of a drawn chunk.
@@ -241,13 +359,14 @@ struct Beyond {
 // Finds the neighbours of the drawn chunks, and sets the morphs, stitches and skirts of their edges.
 class EdgeJoiner {
 public:
-    EdgeJoiner(const Frame& frame, Selection& out)
+    EdgeJoiner(const Frame& frame, const Walk& walk)
         : frame_(frame),
           settings_(frame.settings),
           fades_(settings_.morph && settings_.fadeS > 0),
-          out_(out),
-          beyond_(out.draw.size()),
-          starts_(out.draw.size()) {}
+          walk_(walk),
+          out_(walk.out),
+          beyond_(out_.draw.size()),
+          starts_(out_.draw.size()) {}
 
     void join() {
         findNeighbours();
@@ -266,12 +385,12 @@ private:
         std::array<float, edgeCount> edgeMorph{};
     };
 
-    Start startOf(const DrawItem& item) const {
+    Start startOf(const DrawItem& item, const Shown* last) const {
         Start start;
         const Memory& before = frame_.before;
         if (!before.fades()) return start;
         start.known = start.switched = true;
-        if (const Shown* last = before.find(item.id)) {
+        if (last) {
             start.edgeMorph = last->edgeMorph;
             start.switched = false;
         } else if (!before.wasSplit(item.id)) {
@@ -289,22 +408,16 @@ private:
     }
 
     void findNeighbours() {
-        std::vector<DrawItem>& draw = out_.draw;
-        ChunkTable drawn(draw.size());
-        int coarsestLevel = maxLevel;
+        const std::vector<DrawItem>& draw = out_.draw;
+        const std::vector<PlacesBeside> beside = placesBeside(walk_);
         for (std::uint32_t i = 0; i < draw.size(); ++i) {
-            drawn.add(draw[i].id, i);
-            coarsestLevel = std::min<int>(coarsestLevel, draw[i].id.level);
-            starts_[i] = startOf(draw[i]);
-        }
-        for (std::uint32_t i = 0; i < draw.size(); ++i) {
+            starts_[i] = startOf(draw[i], walk_.shownBefore[i]);
             for (std::size_t e = 0; e < edgeCount; ++e) {
                 // Finds neighbours of the same level or coarser; finer neighbours find this chunk themselves.
-                const std::uint32_t* found =
-                    drawn.findHolder(neighbourOf(draw[i].id, allEdges[e]), coarsestLevel);
-                if (!found) continue;
-                beyond_[i][e].item = *found;
-                if (draw[*found].id.level < draw[i].id.level) noteSeam(i, e);
+                const std::uint32_t place = beside[walk_.placeOf[i]][e];
+                if (out_.touched[place].fate != NodeFate::Drawn) continue;
+                beyond_[i][e].item = walk_.indexOf[place];
+                if (draw[beyond_[i][e].item].id.level < draw[i].id.level) noteSeam(i, e);
             }
         }
     }
@@ -407,10 +520,12 @@ private:
     }
 
     // Returns 0 if nothing slides, because the bound does not depend on the distance then.
-    float nearestSampleOf(const DrawItem& item, const ChunkNode& node) const {
+    float nearestSampleOf(const DrawItem& item) const {
         const bool slides = item.morph > 0 || std::any_of(item.edgeMorph.begin(), item.edgeMorph.end(),
                                                           [](float morph) { return morph > 0; });
-        return slides ? static_cast<float>(nearestSampleM(frame_.tree.shape, node, frame_.eyeM)) : 0.0f;
+        return slides ? static_cast<float>(
+                            nearestSampleM(frame_.tree.shape, frame_.tree.nodes[item.node], frame_.eyeM))
+                      : 0.0f;
     }
 
     void fillBounds() {
@@ -418,15 +533,10 @@ private:
         for (std::size_t i = 0; i < beyond_.size(); ++i) {
             for (std::size_t e = 0; e < edgeCount; ++e) neighbours[i][e] = beyond_[i][e].item;
         }
-        std::vector<double> cellSpansM;
-        cellSpansM.reserve(out_.draw.size());
-        for (DrawItem& item : out_.draw) {
-            const ChunkNode& node = frame_.tree.nodes[item.node];
-            cellSpansM.push_back(cellSpanM(frame_.tree.shape, node));
-            // Without morph, an item's bound is its ε.
-            if (settings_.morph) item.nearestSampleM = nearestSampleOf(item, node);
-        }
-        fillDrawnBounds(out_.draw, neighbours, cellSpansM, frame_.scalePx, settings_.metric,
+        // Without morph, an item's bound is its ε.
+        for (DrawItem& item : out_.draw)
+            if (settings_.morph) item.nearestSampleM = nearestSampleOf(item);
+        fillDrawnBounds(out_.draw, neighbours, walk_.cellSpanM, frame_.scalePx, settings_.metric,
                         settings_.seams == SeamMode::Stitched);
         for (const DrawItem& item : out_.draw)
             out_.counters.worstDrawnBoundPx = std::max(out_.counters.worstDrawnBoundPx, item.drawnBoundPx);
@@ -435,6 +545,7 @@ private:
     const Frame& frame_;
     const LodSettings& settings_;
     const bool fades_;
+    const Walk& walk_;
     Selection& out_;
     std::vector<std::array<Beyond, edgeCount>> beyond_;  // by index in draw
     std::vector<Start> starts_;
@@ -464,10 +575,40 @@ void clear(Selection& out) {
 
 void selectOnce(const Frame& frame, Selection& out) {
     clear(out);
+    Walk walk(out);
     const OpenTests all = openTests(frame.settings.frustumCulling, frame.settings.horizonCulling);
-    for (NodeIndex root = 0; root < faceCount; ++root) visit(frame, root, all, {}, out);
+    for (NodeIndex root = 0; root < faceCount; ++root) {
+        walk.roots[root] = static_cast<std::uint32_t>(out.touched.size());
+        visit(frame, root, all, {}, walk);
+    }
     // This runs before sorting, while neighbours lie close together in memory.
-    EdgeJoiner(frame, out).join();
+    EdgeJoiner(frame, walk).join();
+}
+
+// Sorts the items near to far. Items are large, so their order is found first, and then each is moved once.
+void sortByDistance(std::vector<DrawItem>& draw) {
+    struct Key {
+        float distanceM;
+        std::uint32_t index;
+    };
+    std::vector<Key> keys(draw.size());
+    for (std::uint32_t i = 0; i < draw.size(); ++i) keys[i] = {draw[i].distanceM, i};
+    std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+        return a.distanceM != b.distanceM ? a.distanceM < b.distanceM : draw[a.index].id < draw[b.index].id;
+    });
+    // keys[to].index is where the item of place `to` comes from. Items move along the cycles of these places.
+    for (std::uint32_t start = 0; start < draw.size(); ++start) {
+        if (keys[start].index == start) continue;
+        const DrawItem first = draw[start];
+        std::uint32_t to = start;
+        while (keys[to].index != start) {
+            const std::uint32_t from = std::exchange(keys[to].index, to);
+            draw[to] = draw[from];
+            to = from;
+        }
+        draw[to] = first;
+        keys[to].index = to;
+    }
 }
 
 void countTriangles(const ChunkTree& tree, Selection& out) {
@@ -523,9 +664,7 @@ void selectChunks(const ChunkTree& tree, const View& lodView, const LodSettings&
     // Each round draws fewer and coarser chunks, so the loop ends, usually after the first round.
     while (settings.seams == SeamMode::Stitched && limitSeams(frame, out)) selectOnce(frame, out);
 
-    std::sort(out.draw.begin(), out.draw.end(), [](const DrawItem& a, const DrawItem& b) {
-        return a.distanceM != b.distanceM ? a.distanceM < b.distanceM : a.id < b.id;
-    });
+    sortByDistance(out.draw);
     std::sort(out.requests.begin(), out.requests.end(),
               [](const ChildrenRequest& a, const ChildrenRequest& b) {
                   return a.priority != b.priority ? a.priority > b.priority : a.parentId < b.parentId;

@@ -16,7 +16,6 @@
 #include "planet/raster/image_formats.h"
 #include "planet/raster/image_names.h"
 #include "planet/raster/image_placement.h"
-#include "planet/raster/placed_image.h"
 #include "planet/source/height_quanta.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/source_parts.h"

@@ -125,6 +125,7 @@ ChunkBounds chunkBounds(const ChunkDirections& directions, double radiusM, doubl
     ChunkBounds bounds;
     bounds.box = boxOf(directions, radiusM + minHeightM, radiusM + maxHeightM);
     bounds.cone = directions.cone;
+    bounds.coneSine = std::sin(directions.cone.halfAngleRad);
     bounds.maxRadiusM = radiusM + maxHeightM;
     return bounds;
 }
@@ -162,13 +163,31 @@ Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM) {
     if (horizon.seesAll) return horizon;
     horizon.eyeDirection = eyeM / eyeRadiusM;
     horizon.angleRad = angleOf(occluderRadiusM, eyeRadiusM);
+    horizon.angleCosine = std::cos(horizon.angleRad);
+    horizon.angleSine = std::sin(horizon.angleRad);
     return horizon;
+}
+
+namespace {
+
+// Cosines of angles that differ by less than this may be in either order, because of rounding.
+constexpr double cosineRounding = 1e-13;
+
+// The cosine and the sine of an angle.
+struct Turn {
+    double cosine = 1;
+    double sine = 0;
+};
+Turn operator+(const Turn& a, const Turn& b) {
+    return {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine};
+}
+Turn operator-(const Turn& a) {
+    return {a.cosine, -a.sine};
 }
 
 // A line of sight touches the occluder at angleRad from the eye's direction. Beyond that point it reaches a
 // point of radius r at most acos(occluder / r) further round.
-Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
-    if (horizon.seesAll) return Containment::Inside;
+Containment classifyByAngles(const ChunkBounds& bounds, const Horizon& horizon) {
     const DirectionCone& cone = bounds.cone;
     const double toAxis = std::atan2(glm::length(glm::cross(horizon.eyeDirection, cone.axis)),
                                      glm::dot(horizon.eyeDirection, cone.axis));
@@ -176,6 +195,30 @@ Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
     const double topM = std::max(bounds.maxRadiusM, horizon.occluderRadiusM);
     const double reach = horizon.angleRad + angleOf(horizon.occluderRadiusM, topM) + boxRounding;
     return toAxis - cone.halfAngleRad > reach ? Containment::Outside : Containment::Crossing;
+}
+
+}  // namespace
+
+// Compares cosines instead of angles, which takes a fifth of the time, unless they are so close that rounding decides.
+// The angles of the cone and of the horizon are at most pi / 2 each, so their difference lies in [-pi / 2, pi / 2] and
+// their sum with the angle to the top in [0, 3 pi / 2]. Where a sine tells that the difference is negative, or the sum
+// more than pi, no cosine can be compared.
+Containment classify(const ChunkBounds& bounds, const Horizon& horizon) {
+    if (horizon.seesAll) return Containment::Inside;
+    const double cosine = glm::dot(horizon.eyeDirection, bounds.cone.axis);
+    const Turn touch{horizon.angleCosine, horizon.angleSine};
+    const Turn cone{std::sqrt(1 - bounds.coneSine * bounds.coneSine), bounds.coneSine};
+    const Turn inner = touch + -cone;
+    if (inner.sine > cosineRounding && cosine > inner.cosine + cosineRounding) return Containment::Inside;
+    const bool isSurelyNotInside = inner.sine < -cosineRounding || cosine < inner.cosine - cosineRounding;
+    const double topM = std::max(bounds.maxRadiusM, horizon.occluderRadiusM);
+    const double occluderM = horizon.occluderRadiusM;
+    const Turn top{occluderM / topM, std::sqrt((topM - occluderM) * (topM + occluderM)) / topM};
+    const Turn outer = touch + top + cone;
+    if (!isSurelyNotInside) return classifyByAngles(bounds, horizon);
+    if (outer.sine > cosineRounding && cosine < outer.cosine - cosineRounding) return Containment::Outside;
+    const bool isSurelyCrossing = outer.sine < -cosineRounding || cosine > outer.cosine + cosineRounding;
+    return isSurelyCrossing ? Containment::Crossing : classifyByAngles(bounds, horizon);
 }
 
 // A triangle whose corners are within an angle a of a direction m, none nearer than r, has dot(point, m) >= r

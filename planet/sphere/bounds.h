@@ -28,6 +28,7 @@ struct DirectionCone {
 struct ChunkBounds {
     OrientedBox box;
     DirectionCone cone;     // contains the direction of every vertex
+    double coneSine = 0;    // of the cone's half angle, which is at most pi / 2
     double maxRadiusM = 0;  // largest distance of a vertex from the planet's centre
 };
 
@@ -58,6 +59,8 @@ struct Horizon {
     double occluderRadiusM = 0;
     double angleRad =
         0;  // at the planet's centre, from the eye to where a line of sight touches the occluder
+    double angleCosine = 1;
+    double angleSine = 0;
     bool seesAll = true;  // the eye is inside the occluder
 };
 Horizon horizonOf(const glm::dvec3& eyeM, double occluderRadiusM);

@@ -10,32 +10,6 @@
 
 namespace planet {
 
-std::uint64_t keyOf(const ChunkId& id) {
-    return (static_cast<std::uint64_t>(id.face) << 61) | (static_cast<std::uint64_t>(id.level) << 56) |
-           (static_cast<std::uint64_t>(id.y) << 28) | id.x;
-}
-
-ChunkId childOf(const ChunkId& parent, int quadrant) {
-    assert(quadrant >= 0 && quadrant < quadrantCount && parent.level < maxLevel);
-    const auto q = static_cast<std::uint32_t>(quadrant);
-    return {parent.face, static_cast<std::uint8_t>(parent.level + 1), parent.x * 2 + (q & 1),
-            parent.y * 2 + (q >> 1)};
-}
-
-ChunkId parentOf(const ChunkId& child) {
-    assert(child.level > 0);
-    return {child.face, static_cast<std::uint8_t>(child.level - 1), child.x / 2, child.y / 2};
-}
-
-int quadrantOf(const ChunkId& child) {
-    return static_cast<int>((child.x & 1) + 2 * (child.y & 1));
-}
-
-ChunkId ancestorOf(ChunkId id, int level) {
-    while (id.level > level) id = parentOf(id);
-    return id;
-}
-
 ChunkId neighbourOf(const ChunkId& id, Edge edge) {
     const std::uint32_t last = (1u << id.level) - 1;
     if (edge == Edge::West && id.x > 0) return {id.face, id.level, id.x - 1, id.y};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <compare>
 #include <cstdint>
 #include <functional>
@@ -26,16 +27,33 @@ struct ChunkId {
 };
 
 // Returns a key that is unique over all valid ids: 3 bits of face, 5 of level, 28 each of y and x.
-std::uint64_t keyOf(const ChunkId& id);
+inline std::uint64_t keyOf(const ChunkId& id) {
+    return (static_cast<std::uint64_t>(id.face) << 61) | (static_cast<std::uint64_t>(id.level) << 56) |
+           (static_cast<std::uint64_t>(id.y) << 28) | id.x;
+}
 
 // A quadrant is (x & 1) + 2 (y & 1).
 inline constexpr int quadrantCount = 4;
-ChunkId childOf(const ChunkId& parent, int quadrant);
-ChunkId parentOf(const ChunkId& child);  // child.level > 0
-int quadrantOf(const ChunkId& child);
+inline ChunkId childOf(const ChunkId& parent, int quadrant) {
+    assert(quadrant >= 0 && quadrant < quadrantCount && parent.level < maxLevel);
+    const auto q = static_cast<std::uint32_t>(quadrant);
+    return {parent.face, static_cast<std::uint8_t>(parent.level + 1), parent.x * 2 + (q & 1),
+            parent.y * 2 + (q >> 1)};
+}
+inline ChunkId parentOf(const ChunkId& child) {
+    assert(child.level > 0);
+    return {child.face, static_cast<std::uint8_t>(child.level - 1), child.x / 2, child.y / 2};
+}
+inline int quadrantOf(const ChunkId& child) {
+    return static_cast<int>((child.x & 1) + 2 * (child.y & 1));
+}
 // Returns the chunk of a level that contains this one; the chunk itself if it has that level or a coarser
 // one.
-ChunkId ancestorOf(ChunkId id, int level);
+inline ChunkId ancestorOf(const ChunkId& id, int level) {
+    if (id.level <= level) return id;
+    const int up = id.level - level;
+    return {id.face, static_cast<std::uint8_t>(level), id.x >> up, id.y >> up};
+}
 
 enum class Edge : std::uint8_t { West, East, South, North };  // u = min, u = max, v = min, v = max
 inline constexpr int edgeCount = 4;

@@ -32,29 +32,29 @@ namespace planet {
 // Loader threads share the heights: they refine a parent's heights even after the tree has dropped it.
 using SharedHeights = std::shared_ptr<const Steps>;
 
-// A chunk that is loaded and drawable.
+// A chunk that is loaded and drawable. The first members are what selection reads of every visited node.
 struct ChunkNode {
     ChunkId id;
-    float deltaCM = 0;            // metres, exaggerated
-    float storedDeltaCM = 0;      // as in the file
-    float deltaTightM = 0;        // the tight metric, metres, exaggerated; at most deltaCM
-    float storedDeltaTightM = 0;  // as in the file
-    float minHeightM = 0;         // over all finest samples below
+    float deltaCM = 0;      // metres, exaggerated
+    float deltaTightM = 0;  // the tight metric, metres, exaggerated; at most deltaCM
+    float minHeightM = 0;   // over all finest samples below
     float maxHeightM = 0;
-    std::int32_t minStep = 0;  // the same, in stored steps
-    ChunkBounds bounds;
-    glm::dvec3 directionLow{0, 0, 0};  // along its box's axes; makes updating bounds cheap
-    glm::dvec3 directionHigh{0, 0, 0};
     NodeIndex parent = noNode;
     NodeIndex firstChild = noNode;  // four in sequence, in quadrant order
-    std::int32_t maxStep = 0;       // belongs to minStep; here it fills a gap
+    std::uint32_t slot = 0;         // in the pool of heights
+    std::uint32_t loadOrder = 0;  // 0 for the roots, then 1 for the first block, 2, ...; here it fills a gap
     ChildrenState childrenState = ChildrenState::None;
+    ChunkBounds bounds;
+    float storedDeltaCM = 0;      // as in the file
+    float storedDeltaTightM = 0;  // as in the file
+    std::int32_t minStep = 0;     // over all finest samples below, in stored steps
+    std::int32_t maxStep = 0;
+    glm::dvec3 directionLow{0, 0, 0};  // along its box's axes; makes updating bounds cheap
+    glm::dvec3 directionHigh{0, 0, 0};
     BlockLocation children;           // in the file
-    std::uint32_t slot = 0;           // in the pool of heights
     SharedHeights heights;            // never null
     std::uint64_t lastUsedFrame = 0;  // last frame that selection visited it
     double loadedAtS = 0;             // time when it became resident, seconds since the planet was opened
-    std::uint32_t loadOrder = 0;      // 0 for the roots, then 1 for the first block, 2, ...
 };
 
 struct ChunkTree {

@@ -192,10 +192,60 @@ TEST(Bounds, HorizonIsExactForTheCone) {
         ChunkBounds bounds;
         bounds.maxRadiusM = 1.05e6;
         bounds.cone.halfAngleRad = 0.01;
+        bounds.coneSine = std::sin(0.01);
         const double angle = reach + 0.01 + beyond;
         bounds.cone.axis = {std::cos(angle), std::sin(angle), 0};
         EXPECT_EQ(classify(bounds, horizonOf(eye, occluderM)) == Containment::Outside, beyond > 0);
     }
+}
+
+// Cosines are compared instead of angles, which must not change the answer.
+TEST(Bounds, TheHorizonIsClassifiedAsTheAnglesSay) {
+    constexpr double radiusM = 6.4e6;
+    std::mt19937 random(33);
+    std::uniform_real_distribution<double> exponent(-9, 1), share(0, 1);
+    std::uniform_int_distribution<int> levels(0, 20);
+    std::normal_distribution<double> gauss;
+    std::array<int, 3> seen{};
+    for (int i = 0; i < 200'000; ++i) {
+        const int level = levels(random);
+        const auto coordinate = [&] {
+            return static_cast<std::uint32_t>(share(random) * static_cast<double>((1u << level) - 1));
+        };
+        const ChunkId id{allFaces[static_cast<std::size_t>(i) % 6], static_cast<std::uint8_t>(level),
+                         coordinate(), coordinate()};
+        const double highM = 9000 * share(random);
+        const ChunkBounds bounds = chunkBounds(id, radiusM, 0, highM);
+        const double occluderM = radiusM * (0.9 + 0.1 * share(random));
+        // Half of the eyes are close over the chunk, on a scale of the chunk or of its distance to the horizon.
+        const glm::dvec3 towards(gauss(random), gauss(random), gauss(random));
+        const double apart = i % 2 ? 10 : std::pow(10.0, exponent(random));
+        const glm::dvec3 eyeM = glm::normalize(bounds.cone.axis + apart * towards) * radiusM *
+                                (1 + std::pow(10.0, exponent(random)));
+        const Horizon horizon = horizonOf(eyeM, occluderM);
+        if (horizon.seesAll) continue;
+
+        const auto angleOf = [](long double adjacent, long double hypotenuse) {
+            return std::atan2(std::sqrt((hypotenuse - adjacent) * (hypotenuse + adjacent)), adjacent);
+        };
+        const long double touch = angleOf(occluderM, glm::length(eyeM));
+        const long double top = angleOf(occluderM, std::max(bounds.maxRadiusM, occluderM));
+        const glm::dvec3 across = glm::cross(horizon.eyeDirection, bounds.cone.axis);
+        const long double toAxis =
+            std::atan2(static_cast<long double>(glm::length(across)),
+                       static_cast<long double>(glm::dot(horizon.eyeDirection, bounds.cone.axis)));
+        const long double inner = touch - bounds.cone.halfAngleRad - toAxis;
+        const long double outer = touch + top + bounds.cone.halfAngleRad - toAxis;
+        if (std::abs(inner) < 1e-12L || std::abs(outer) < 1e-12L) continue;
+        const Containment expected = inner > 0   ? Containment::Inside
+                                     : outer < 0 ? Containment::Outside
+                                                 : Containment::Crossing;
+        ++seen[static_cast<std::size_t>(expected)];
+        ASSERT_EQ(classify(bounds, horizon), expected)
+            << toString(id) << ", eye at " << glm::length(eyeM) << " m, inner " << static_cast<double>(inner)
+            << ", outer " << static_cast<double>(outer);
+    }
+    for (const int count : seen) EXPECT_GT(count, 1000);
 }
 
 TEST(Bounds, AnEyeInsideTheOccluderSeesEverything) {
