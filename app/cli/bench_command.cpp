@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "app/base/exit_code.h"
+#include "app/base/output_file.h"
 #include "app/base/places.h"
 #include "app/base/report.h"
 #include "app/cli/bench_comparison.h"
@@ -155,6 +156,40 @@ Json jsonOf(const BenchOptions& options, const std::string& source, const Machin
     return report;
 }
 
+std::string quoted(const std::string& text) {
+    std::string inside;
+    for (const char c : text) inside += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return '"' + inside + '"';
+}
+
+// Returns a table with one line for each row; fields that a row lacks are empty.
+std::string csvOf(const std::vector<Section>& sections) {
+    std::string csv =
+        "schema_version,part,subject,quantity,unit,median,minimum,maximum,times_median,times_minimum,"
+        "times_maximum,times_of,aim_at_most,aim_at_least,aim_of\n";
+    for (const Section& section : sections) {
+        for (const BenchRow& row : section.rows) {
+            csv += fmt::format("{},{},{},{},{},{},{},{},", schemaVersion, section.name, quoted(row.subject),
+                               quoted(row.quantity), quoted(row.unit), row.value.median, row.value.minimum,
+                               row.value.maximum);
+            csv += row.yardstick.empty() ? ",,,,"
+                                         : fmt::format("{},{},{},{},", row.ratio.median, row.ratio.minimum,
+                                                       row.ratio.maximum, quoted(row.yardstick));
+            if (row.aim)
+                csv += fmt::format("{}{}{},{}", row.aim->isUpperBound ? "" : ",", row.aim->bound,
+                                   row.aim->isUpperBound ? "," : "", row.aim->isOfRatio ? "times" : "value");
+            else
+                csv += ",,";
+            csv += '\n';
+        }
+    }
+    return csv;
+}
+
+bool isCsvTable(const std::filesystem::path& file) {
+    return file.extension() == ".csv";
+}
+
 Result<std::vector<BenchPlanet>> bakePlanets(const planet::HeightSource& source, const BenchOptions& options,
                                              const std::filesystem::path& folder) {
     std::vector<BenchPlanet> planets;
@@ -281,6 +316,11 @@ Json jsonOf(const BenchComparison& comparison, const std::vector<std::filesystem
 }
 
 Result<bool> compareReports(const BenchOptions& options) {
+    if (isCsvTable(options.report.file)) {
+        return planet::badInput(
+            fmt::format("{}: a comparison is written as JSON; expected a name ending in .json",
+                        options.report.file.string()));
+    }
     std::array<std::vector<ReportedRow>, 2> reports;
     for (std::size_t i = 0; i < reports.size(); ++i) {
         Result<std::vector<ReportedRow>> read = readBenchReport(options.compared[i]);
@@ -329,7 +369,13 @@ Result<bool> runBench(const BenchOptions& options) {
         sections.push_back({part.name, part.title, std::move(*rows)});
         if (!options.report.json) print(sections.back());
     }
-    return writeReport(options.report, jsonOf(options, source->description, *machine, sections)).map([] {
+    ReportTo json = options.report;
+    if (isCsvTable(json.file)) {
+        if (Result<void> written = writeTextFile(json.file, csvOf(sections)); !written)
+            return tl::unexpected(written.error());
+        json.file.clear();
+    }
+    return writeReport(json, jsonOf(options, source->description, *machine, sections)).map([] {
         return true;
     });
 }

@@ -25,7 +25,7 @@ struct BenchOptions {
     PictureSize size;
     std::vector<std::string> parts;               // elements of benchParts; empty: all
     std::vector<std::filesystem::path> compared;  // two reports to compare instead of measuring; or empty
-    ReportTo report;
+    ReportTo report;                              // JSON, or a CSV table of the rows if the file ends in .csv
 };
 
 }  // namespace worldy

@@ -1,11 +1,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -18,13 +16,8 @@ namespace {
 
 using planet::Result;
 
-struct Started {
-    double ms = 0;  // until the process has ended
-    double mostMiB = 0;
-};
-
-// Runs the program itself, without its output.
-Result<Started> run(const std::vector<std::string>& arguments) {
+// Runs the program itself, without its output. Returns the milliseconds until it has ended.
+Result<double> run(const std::vector<std::string>& arguments) {
     std::vector<char*> pointers;
     std::string name = "worldy";
     pointers.push_back(name.data());
@@ -39,15 +32,14 @@ Result<Started> run(const std::vector<std::string>& arguments) {
     const int problem = ::posix_spawn(&child, "/proc/self/exe", &actions, nullptr, pointers.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
     int status = 0;
-    rusage used{};
-    if (problem != 0 || ::wait4(child, &status, 0, &used) != child) {
+    if (problem != 0 || ::waitpid(child, &status, 0) != child) {
         return planet::ioError(fmt::format("worldy {}: cannot be started: {}", fmt::join(arguments, " "),
                                            std::strerror(problem)));
     }
     const double ms = watch.elapsedMs();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         return planet::badInput(fmt::format("worldy {}: failed", fmt::join(arguments, " ")));
-    return Started{ms, static_cast<double>(used.ru_maxrss) / 1024};
+    return ms;
 }
 
 }  // namespace
@@ -67,20 +59,15 @@ BenchRows benchStart(const BenchPlanet& planet, const BenchOptions& options,
     std::vector<BenchRow> rows;
     for (const Command& command : commands) {
         std::vector<double> ms;
-        double mostMiB = 0;
         // The first run reads the libraries from the disk.
         for (int round = -1; round < options.rounds; ++round) {
-            const Result<Started> started = run(command.arguments);
-            if (!started) return tl::unexpected(started.error());
-            if (round >= 0) ms.push_back(started->ms);
-            mostMiB = std::max(mostMiB, started->mostMiB);
+            const Result<double> ended = run(command.arguments);
+            if (!ended) return tl::unexpected(ended.error());
+            if (round >= 0) ms.push_back(*ended);
         }
         BenchRow time{command.subject, "from start to end", "ms", spreadOf(ms)};
         time.aim = {.bound = command.mostMs};
         rows.push_back(std::move(time));
-        BenchRow memory{command.subject, "memory", "MiB", {mostMiB, mostMiB, mostMiB}};
-        if (command.mostMs < 1000) memory.aim = {.bound = 20};
-        rows.push_back(std::move(memory));
     }
     return rows;
 }

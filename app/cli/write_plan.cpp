@@ -87,7 +87,8 @@ CommandFiles filesOf(const BenchOptions& options) {
         addSource(files, options.source.empty() ? earthElevation() : options.source);
     else
         files.inputs = options.compared;
-    files.outputs = {{options.report.file, OutputKind::Json}};
+    const std::filesystem::path& report = options.report.file;
+    files.outputs = {{report, report.extension() == ".csv" ? OutputKind::Csv : OutputKind::Json}};
     return files;
 }
 

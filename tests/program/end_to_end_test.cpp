@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "app/base/picture_file.h"
 #include "planet/gl/device/offscreen_context.h"
@@ -16,6 +17,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::set<std::string> filesIn(const std::filesystem::path& folder) {
     std::set<std::string> names;
@@ -339,6 +341,22 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     EXPECT_LT(triangles["faces of 65, tau 1 px"], triangles["faces of 65, every leaf"]);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "temporary"));
 
+    const Ran table =
+        runWorldy(folder, "bench hills.pgm --faces 65 --rounds 2 --parts page_in start -o t.csv");
+    ASSERT_EQ(table.exitCode, 0) << table.errors;
+    const std::string csv = contentOf(folder.path() / "t.csv");
+    EXPECT_THAT(csv, StartsWith("schema_version,part,subject,quantity,unit,median,minimum,maximum,"));
+    EXPECT_THAT(csv, HasSubstr("\n2,page_in,\"loading, one loader\",\"rate\",\"MB/s\","));
+    EXPECT_THAT(csv, HasSubstr(",\"the same blocks in a loop\",,0.9,times\n"));
+    EXPECT_THAT(csv, HasSubstr(",,,,,30,,value\n"));
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+        bool isText = false;
+        int commas = 0;
+        for (const char c : line) isText ^= c == '"', commas += !isText && c == ',';
+        EXPECT_EQ(commas, 14) << line;
+    }
+
     const Ran same = runWorldy(folder, "bench --compare out.json out.json -o same.json");
     EXPECT_EQ(same.exitCode, 0) << same.errors;
     EXPECT_THAT(same.output, HasSubstr("\n0 of "));
@@ -354,6 +372,7 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     EXPECT_EQ(runWorldy(folder, "bench --compare out.json").exitCode, 2);
     EXPECT_EQ(runWorldy(folder, "bench --compare out.json hills.pgm").exitCode, 2);
     EXPECT_EQ(runWorldy(folder, "bench --compare out.json out.json -o out.json").exitCode, 2);
+    EXPECT_EQ(runWorldy(folder, "bench --compare out.json out.json -o other.csv").exitCode, 2);
 }
 
 TEST(Program, NoOpenGl33EndsWithTwoAndSaysWhatIsMissing) {
