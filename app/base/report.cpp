@@ -15,6 +15,10 @@ std::string jsonText(const nlohmann::ordered_json& report) {
     return versioned.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+bool isCsvTable(const std::filesystem::path& file) {
+    return file.extension() == ".csv";
+}
+
 planet::Result<void> writeReport(const ReportTo& to, const nlohmann::ordered_json& report) {
     if (!to.json && to.file.empty()) return {};
     const std::string text = jsonText(report);

@@ -17,6 +17,9 @@ inline constexpr int schemaVersion = 2;
 // ends with a newline. File names may hold any bytes but JSON is UTF-8: invalid bytes are replaced by U+FFFD.
 std::string jsonText(const nlohmann::ordered_json& report);
 
+// Returns whether the name of an output asks for a CSV table instead of JSON.
+bool isCsvTable(const std::filesystem::path& file);
+
 // The destination of a command's report.
 struct ReportTo {
     bool json = false;             // prints JSON instead of tables

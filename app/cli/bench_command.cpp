@@ -156,7 +156,7 @@ Json jsonOf(const BenchOptions& options, const std::string& source, const Machin
     return report;
 }
 
-std::string quoted(const std::string& text) {
+std::string csvQuoted(const std::string& text) {
     std::string inside;
     for (const char c : text) inside += c == '"' ? std::string("\"\"") : std::string(1, c);
     return '"' + inside + '"';
@@ -169,25 +169,24 @@ std::string csvOf(const std::vector<Section>& sections) {
         "times_maximum,times_of,aim_at_most,aim_at_least,aim_of\n";
     for (const Section& section : sections) {
         for (const BenchRow& row : section.rows) {
-            csv += fmt::format("{},{},{},{},{},{},{},{},", schemaVersion, section.name, quoted(row.subject),
-                               quoted(row.quantity), quoted(row.unit), row.value.median, row.value.minimum,
-                               row.value.maximum);
+            csv += fmt::format("{},{},{},{},{},{},{},{},", schemaVersion, section.name,
+                               csvQuoted(row.subject), csvQuoted(row.quantity), csvQuoted(row.unit),
+                               row.value.median, row.value.minimum, row.value.maximum);
             csv += row.yardstick.empty() ? ",,,,"
                                          : fmt::format("{},{},{},{},", row.ratio.median, row.ratio.minimum,
-                                                       row.ratio.maximum, quoted(row.yardstick));
-            if (row.aim)
-                csv += fmt::format("{}{}{},{}", row.aim->isUpperBound ? "" : ",", row.aim->bound,
-                                   row.aim->isUpperBound ? "," : "", row.aim->isOfRatio ? "times" : "value");
-            else
+                                                       row.ratio.maximum, csvQuoted(row.yardstick));
+            if (row.aim) {
+                const std::string bound = fmt::format("{}", row.aim->bound);
+                csv +=
+                    fmt::format("{},{},{}", row.aim->isUpperBound ? bound : "",
+                                row.aim->isUpperBound ? "" : bound, row.aim->isOfRatio ? "times" : "value");
+            } else {
                 csv += ",,";
+            }
             csv += '\n';
         }
     }
     return csv;
-}
-
-bool isCsvTable(const std::filesystem::path& file) {
-    return file.extension() == ".csv";
 }
 
 Result<std::vector<BenchPlanet>> bakePlanets(const planet::HeightSource& source, const BenchOptions& options,

@@ -60,6 +60,11 @@ bool isSameRow(const ReportedRow& a, const ReportedRow& b) {
            a.row.unit == b.row.unit && a.row.yardstick == b.row.yardstick;
 }
 
+// Returns whether more of a unit is better: more of a rate is, more of a time or of a size is not.
+bool moreIsBetter(const std::string& unit) {
+    return unit.ends_with("/s");
+}
+
 BenchVerdict verdictOf(const BenchChange& change) {
     if (change.b.minimum <= change.a.maximum && change.b.maximum >= change.a.minimum)
         return BenchVerdict::WithinNoise;
@@ -69,10 +74,6 @@ BenchVerdict verdictOf(const BenchChange& change) {
 }
 
 }  // namespace
-
-bool moreIsBetter(const std::string& unit) {
-    return unit.ends_with("/s");
-}
 
 Result<std::vector<ReportedRow>> readBenchReport(const std::filesystem::path& file) {
     constexpr std::size_t mostBytes = std::size_t{16} << 20;

@@ -1,6 +1,7 @@
 // Compares two reports of worldy bench, row by row.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ enum class BenchVerdict : std::uint8_t {
     WithinNoise,  // the ranges over the rounds overlap
     Better,
     Worse,
-    Differs,  // a count or a size, of which neither more nor less is better
+    Differs,  // a count, of which neither more nor less is better
 };
 
 // A row that both reports have. What has a yardstick is compared by its ratio to it, because other load on the machine
@@ -42,8 +43,5 @@ struct BenchComparison {
     std::vector<ReportedRow> onlyB;
 };
 BenchComparison compareBenchReports(const std::vector<ReportedRow>& a, const std::vector<ReportedRow>& b);
-
-// Returns whether more of a unit is better: rates are, times and sizes are not.
-bool moreIsBetter(const std::string& unit);
 
 }  // namespace worldy

@@ -26,7 +26,7 @@ Spread spreadOf(std::vector<double> values);
 
 inline constexpr double loadTimeoutS = 600;  // for all blocks of a view
 
-// What Worldy's developers want a figure to be, on a machine like theirs if it is a value.
+// The bound that the developers want a figure to keep. The bound of a value is meant for their own machine.
 struct BenchAim {
     double bound = 0;
     bool isUpperBound = true;

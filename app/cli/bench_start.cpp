@@ -17,7 +17,7 @@ namespace {
 using planet::Result;
 
 // Runs the program itself, without its output. Returns the milliseconds until it has ended.
-Result<double> run(const std::vector<std::string>& arguments) {
+Result<double> runProgram(const std::vector<std::string>& arguments) {
     std::vector<char*> pointers;
     std::string name = "worldy";
     pointers.push_back(name.data());
@@ -61,7 +61,7 @@ BenchRows benchStart(const BenchPlanet& planet, const BenchOptions& options,
         std::vector<double> ms;
         // The first run reads the libraries from the disk.
         for (int round = -1; round < options.rounds; ++round) {
-            const Result<double> ended = run(command.arguments);
+            const Result<double> ended = runProgram(command.arguments);
             if (!ended) return tl::unexpected(ended.error());
             if (round >= 0) ms.push_back(*ended);
         }

@@ -160,23 +160,31 @@ void addFly(CLI::App& command, FlyOptions& options) {
 }
 
 void addBench(CLI::App& command, BenchOptions& options) {
-    command.add_option("SOURCE", options.source, "Elevation image or cube faces (the Earth)");
-    command
-        .add_option("--faces", options.faceSizes,
-                    "Samples per face side, 2^n + 1, of the planets to bake (513 4097)")
-        ->check(CLI::Range(33, 32769));
-    command.add_option("--rounds", options.rounds, "Measurements of each, in alternation (5)")
-        ->check(CLI::Range(1, 1000));
-    command
-        .add_option("--parts", options.parts,
-                    fmt::format("Parts to measure: {} (all)", fmt::join(benchParts, ", ")))
-        ->check(oneOf(benchParts));
+    CLI::Option* const source =
+        command.add_option("SOURCE", options.source, "Elevation image or cube faces (the Earth)");
+    CLI::Option* const faces =
+        command
+            .add_option("--faces", options.faceSizes,
+                        "Samples per face side, 2^n + 1, of the planets to bake (513 4097)")
+            ->check(CLI::Range(33, 32769));
+    CLI::Option* const rounds =
+        command.add_option("--rounds", options.rounds, "Measurements of each, in alternation (5)")
+            ->check(CLI::Range(1, 1000));
+    CLI::Option* const parts =
+        command
+            .add_option("--parts", options.parts,
+                        fmt::format("Parts to measure: {} (all)", fmt::join(benchParts, ", ")))
+            ->check(oneOf(benchParts));
     command
         .add_option("--compare", options.compared,
                     "Measures nothing and compares two reports: what got slower by more than its noise. Ends "
                     "with 1 if anything did")
         ->expected(2)
-        ->type_name("A.json B.json");
+        ->type_name("A.json B.json")
+        ->excludes(source)
+        ->excludes(faces)
+        ->excludes(rounds)
+        ->excludes(parts);
 }
 
 // The options of a sweep, unparsed.

@@ -9,6 +9,7 @@
 #include "app/base/interrupt.h"
 #include "app/base/output_file.h"
 #include "app/base/picture_file.h"
+#include "app/base/report.h"
 #include "app/data/bake_progress.h"
 #include "app/data/data_set.h"
 #include "app/flight/flight_path_file.h"
@@ -100,10 +101,6 @@ void print(const SweepPoint& point) {
                f.meanTriangles, f.meanChunks, f.mostResidentMiB, f.medianFrameMs,
                boundText(f.worstDrawnBoundPx), f.worstMeasuredPx, f.p99MeasuredPx, f.violations);
     flushStandardOutput();
-}
-
-bool isCsvTable(const std::filesystem::path& file) {
-    return file.extension() == ".csv";
 }
 
 // Call before anything is flown.

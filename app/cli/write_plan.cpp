@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/base/places.h"
+#include "app/base/report.h"
 #include "app/data/data_set.h"
 #include "app/settings/layer_file.h"
 #include "app/settings/view_options.h"
@@ -88,7 +89,7 @@ CommandFiles filesOf(const BenchOptions& options) {
     else
         files.inputs = options.compared;
     const std::filesystem::path& report = options.report.file;
-    files.outputs = {{report, report.extension() == ".csv" ? OutputKind::Csv : OutputKind::Json}};
+    files.outputs = {{report, isCsvTable(report) ? OutputKind::Csv : OutputKind::Json}};
     return files;
 }
 
@@ -178,7 +179,7 @@ CommandFiles filesOf(const SweepOptions& options) {
     files.inputs.push_back(options.flight);
     addLayerFiles(files, options.view);
     const fs::path& table = options.report.file;
-    files.outputs = {{table, table.extension() == ".csv" ? OutputKind::Csv : OutputKind::Json},
+    files.outputs = {{table, isCsvTable(table) ? OutputKind::Csv : OutputKind::Json},
                      {options.plotOutput, OutputKind::Picture}};
     return files;
 }

@@ -46,7 +46,7 @@ struct ImageModuleBuild {
     bool operator==(const ImageModuleBuild&) const = default;
 };
 
-// What the module exports under the name worldyImageModule.
+// The module exports one object of this type, under the name worldyImageModule.
 struct ImageModule {
     ImageModuleBuild build;
     ImageFunctions functions;

@@ -1,4 +1,5 @@
-// What the name of an image says: its kind, and the files beside it that are read with it. These functions read no image.
+// These functions tell the kind of an image from its name, and find the files beside it that are read with it. They read no
+// image.
 // Internal to the library; any thread.
 #pragma once
 

@@ -58,8 +58,8 @@ protected:
 // Remembers which surface the first raster says that its heights are measured from.
 class ToldDatum {
 public:
-    // Returns an Error that names both files if the raster says another datum than the first one did. The message ends
-    // with `expected`, which says what would be right.
+    // Returns an Error that names both files if the raster says another datum than the first one did. The caller gives the
+    // end of the message in `expected`: it tells the user what to write instead.
     Result<void> add(const Raster& raster, std::string_view expected);
 
 private:

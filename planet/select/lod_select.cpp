@@ -283,8 +283,8 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
 // The places of the visited nodes beyond the edges of a node: of its level, or coarser if that one was not split.
 using PlacesBeside = std::array<std::uint32_t, edgeCount>;
 
-// What lies beyond an edge of a face's root: a face, and its quadrants beyond those of the root at that edge. The
-// quadrants are the same for the children of any two neighbours on these faces.
+// The face beyond an edge of another face. `quadrants` maps each quadrant at that edge to the one that touches it from the
+// other side. The children of any two neighbours across the edge meet in the same way.
 struct FaceBeyond {
     Face face = Face::PosX;
     std::array<std::uint8_t, quadrantCount> quadrants{};

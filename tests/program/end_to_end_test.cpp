@@ -373,6 +373,7 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     EXPECT_EQ(runWorldy(folder, "bench --compare out.json hills.pgm").exitCode, 2);
     EXPECT_EQ(runWorldy(folder, "bench --compare out.json out.json -o out.json").exitCode, 2);
     EXPECT_EQ(runWorldy(folder, "bench --compare out.json out.json -o other.csv").exitCode, 2);
+    EXPECT_EQ(runWorldy(folder, "bench --compare out.json out.json --rounds 3").exitCode, 2);
 }
 
 TEST(Program, NoOpenGl33EndsWithTwoAndSaysWhatIsMissing) {
