@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace planet::gl {
@@ -26,29 +27,44 @@ struct Candidate {
     EGLDisplay display = EGL_NO_DISPLAY;
 };
 
-void addDevices(std::vector<Candidate>& candidates) {
+// Drivers that draw on the CPU have the extension EGL_MESA_device_software.
+struct Devices {
+    std::vector<Candidate> hardware;
+    std::vector<Candidate> software;
+};
+
+Devices findDevices(bool canQuery) {
+    Devices found;
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
-    if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return;
+    if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return found;
     for (EGLint i = 0; i < count; ++i) {
-        candidates.push_back({fmt::format("EGL device {}", i),
-                              eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT,
-                                                       devices[static_cast<std::size_t>(i)], nullptr)});
+        const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
+        const bool isSoftware =
+            canQuery && hasWord(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+        (isSoftware ? found.software : found.hardware)
+            .push_back({fmt::format("EGL device {}", i),
+                        eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr)});
     }
+    return found;
 }
 
+// GPUs come first: Mesa's display without a surface is a CPU where another vendor's driver has the GPU.
 std::vector<Candidate> findDisplays() {
-    std::vector<Candidate> candidates;
     const char* const extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (!hasWord(extensions, "EGL_EXT_platform_base")) return candidates;
+    if (!hasWord(extensions, "EGL_EXT_platform_base")) return {};
+    Devices devices;
+    const bool base = hasWord(extensions, "EGL_EXT_device_base");  // both of the extensions below
+    if (hasWord(extensions, "EGL_EXT_platform_device") &&
+        (base || hasWord(extensions, "EGL_EXT_device_enumeration")))
+        devices = findDevices(base || hasWord(extensions, "EGL_EXT_device_query"));
+    std::vector<Candidate> candidates = std::move(devices.hardware);
     if (hasWord(extensions, "EGL_MESA_platform_surfaceless")) {
         candidates.push_back(
             {"Mesa without a surface",
              eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)});
     }
-    if (hasWord(extensions, "EGL_EXT_platform_device") &&
-        (hasWord(extensions, "EGL_EXT_device_enumeration") || hasWord(extensions, "EGL_EXT_device_base")))
-        addDevices(candidates);
+    candidates.insert(candidates.end(), devices.software.begin(), devices.software.end());
     return candidates;
 }
 

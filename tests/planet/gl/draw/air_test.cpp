@@ -420,6 +420,10 @@ TEST_F(AirPicture, ByVertexOrByPixelIsTheSame) {
     TestPlanet fine({}, 400);
     fine.addLevel(2, [](const glm::dvec3&) { return 100.0; });
     const View view = viewFrom(fine.shape(), 10, 40, 2e7, -90, 0, 160, 120);
+    // A GPU would draw these, and they ask for light by pixel.
+    settings_.light.sea.use = FeatureUse::Off;
+    settings_.light.shadows.use = FeatureUse::Off;
+    settings_.layers.use = FeatureUse::Off;
     settings_.detail = false;
     const Picture byVertex = drawPicture(fine.renderer(), view, fine.items(), settings_);
     settings_.layers.use = FeatureUse::On;

@@ -26,6 +26,9 @@ TEST_F(PrecisionProbeOnGpu, ItsFloatsAreTheShaders) {
     const VertexFrame frame = vertexFrame(shape, view.eyeM);
     const RenderTarget target = valueOf(RenderTarget::create(view.widthPx, view.heightPx, 1));
     target.bind();
+    // A GPU may fuse a multiplication and an addition, which leaves out a rounding that the probe makes. Each of the two
+    // that come last, of a coordinate and of the sum, is half a unit in the last place: 2^-24 of the distance.
+    const double apart = planet.renderer().capabilities().software ? 2e-7 : 2e-7 + 2 * std::ldexp(1.0, -24);
     for (const bool stitched : {false, true}) {
         for (const float morph : {0.0f, 0.35f, 1.0f}) {
             item.morph = morph;
@@ -39,10 +42,10 @@ TEST_F(PrecisionProbeOnGpu, ItsFloatsAreTheShaders) {
                                                               {i % chunkSize(shape), i / chunkSize(shape)});
                 const glm::dvec3 drawn(positions[static_cast<std::size_t>(i)]);
                 const double apartM = glm::length(drawn - (probe.shader.positionM - view.eyeM));
-                ASSERT_LT(apartM, 2e-7 * probe.distanceM) << i;
+                ASSERT_LT(apartM, apart * probe.distanceM) << i;
                 // And so is the error that it tells.
                 const double errorM = glm::length(drawn + view.eyeM - probe.positionM);
-                ASSERT_NEAR(probe.shader.errorM, errorM, 2e-7 * probe.distanceM) << i;
+                ASSERT_NEAR(probe.shader.errorM, errorM, apart * probe.distanceM) << i;
             }
         }
     }
