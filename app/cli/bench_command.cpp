@@ -231,6 +231,12 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
     return {
         {"lod", "LOD against drawing every leaf, the same camera",
          [&] { return benchLod(planets, options); }},
+        {"frame", "Frames against a plain mesh of the same triangles",
+         [&, largest] {
+             return benchFrame(largest(),
+                               ownColourImage(options.source.empty() ? earthElevation() : options.source),
+                               options);
+         }},
         {"dynamic", "Selection and draw against one static draw of the same triangles",
          [&, largest] { return benchDynamicAgainstStatic(largest(), options); }},
         {"selection", "Selection", [&, largest] { return benchSelection(largest(), options); }},

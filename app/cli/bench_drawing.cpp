@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstddef>
+#include <ctime>
+#include <functional>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/base/stopwatch.h"
 #include "app/cli/bench_parts.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_settings.h"
@@ -14,6 +18,11 @@
 #include "planet/gl/device/offscreen_context.h"
 #include "planet/gl/device/render_target.h"
 #include "planet/gl/device/shader_source.h"
+#include "planet/gl/device/software_renderer.h"
+#include "planet/gl/device/vertex_inputs.h"
+#include "planet/gl/draw/captured_draw.h"
+#include "planet/gl/draw/chunk_grid.h"
+#include "planet/gl/draw/drawing_state.h"
 #include "planet/select/lod_select.h"
 
 namespace worldy {
@@ -69,8 +78,8 @@ struct Contender {
 };
 
 Result<Contender> openContender(std::string name, const ViewSettings& settings, const BenchPlanet& planet,
-                                const planet::View& view) {
-    Result<Scene> scene = openScene({.chunkFile = planet.chunkFile}, settings);
+                                const planet::View& view, const std::filesystem::path& colourImage = {}) {
+    Result<Scene> scene = openScene({.chunkFile = planet.chunkFile, .colourImage = colourImage}, settings);
     if (!scene) return tl::unexpected(scene.error());
     Contender contender{std::move(name), settings, std::move(*scene)};
     if (!settleScene(contender.scene, view, settings, loadTimeoutS)) {
@@ -103,59 +112,92 @@ Result<Drawing> openDrawing(const PictureSize& size) {
     return Drawing{std::move(*context), std::move(*target)};
 }
 
-// The triangles of a selection as a static mesh: positions and indices in two buffers, drawn by one call in
-// one colour.
-struct StaticMesh {
+// The triangles of a selection as a terrain renderer without a planet draws them: a mesh of vertices that morph, with
+// one texture. Skirts are left out.
+struct PlainMesh {
     planet::gl::Program program;
     planet::gl::VertexArray array;
     planet::gl::Buffer vertices;
     planet::gl::Buffer indices;
+    planet::gl::Texture texture;
     GLsizei indexCount = 0;
-    bool reversedZ = false;
+    planet::gl::Projection projection;
 };
 
-std::vector<std::uint32_t> gridIndices(std::size_t chunks, std::uint32_t cells) {
-    std::vector<std::uint32_t> indices;
-    indices.reserve(chunks * cells * cells * 6);
-    const std::uint32_t size = cells + 1;
-    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
-        for (std::uint32_t row = 0; row < cells; ++row) {
-            for (std::uint32_t column = 0; column < cells; ++column) {
-                const std::uint32_t corner = chunk * size * size + row * size + column;
-                for (const std::uint32_t step : {0u, 1u, size + 1, 0u, size + 1, size})
-                    indices.push_back(corner + step);
-            }
-        }
-    }
-    return indices;
+struct PlainVertex {
+    glm::vec3 position;  // from the eye
+    glm::vec3 target;    // where it morphs to
+    glm::vec2 place;     // in the texture
+};
+
+planet::gl::Texture plainTexture() {
+    constexpr int size = 1024;
+    std::vector<std::uint32_t> texels(std::size_t{size} * size);
+    std::uint32_t value = 1;
+    for (std::uint32_t& texel : texels) texel = value = value * 1664525u + 1013904223u;
+    planet::gl::Texture texture = planet::gl::makeTexture();
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, planet::gl::mipmapFilter());
+    return texture;
 }
 
-Result<StaticMesh> makeStaticMesh(Scene& scene, const planet::View& view, const ViewSettings& settings) {
-    const planet::Selection& selection = scene.planet->selection();
-    const Result<std::vector<glm::vec3>> positions = scene.renderer.chunks().readVertexPositions(
-        view, selection.draw, renderSettingsOf(settings, view, scene.planet->tree()));
+Result<std::vector<glm::vec3>> positionsAt(Scene& scene, const planet::View& view,
+                                           const ViewSettings& settings, float morph) {
+    std::vector<planet::DrawItem> items = scene.planet->selection().draw;
+    for (planet::DrawItem& item : items) item.morph = morph;
+    return scene.renderer.chunks().readVertexPositions(
+        view, items, renderSettingsOf(settings, view, scene.planet->tree()));
+}
+
+// Makes the mesh of what the scene drew last.
+Result<PlainMesh> makePlainMesh(Scene& scene, const planet::View& view, const ViewSettings& settings) {
+    const Result<std::vector<glm::vec3>> positions = positionsAt(scene, view, settings, 0);
     if (!positions) return tl::unexpected(positions.error());
-    Result<planet::gl::Program> program =
-        planet::gl::linkProgram({"static mesh, vertices", "",
-                                 "layout(location = 0) in vec3 position;\nuniform mat4 clipFromWorld;\n"
-                                 "void main() { gl_Position = clipFromWorld * vec4(position, 1.0); }\n"},
-                                {"static mesh, fragments", "",
-                                 "out vec4 colour;\nvoid main() { colour = vec4(0.5, 0.5, 0.5, 1.0); }\n"});
+    const Result<std::vector<glm::vec3>> targets = positionsAt(scene, view, settings, 1);
+    if (!targets) return tl::unexpected(targets.error());
+    Result<planet::gl::Program> program = planet::gl::linkProgram(
+        {"plain mesh, vertices", "",
+         "layout(location = 0) in vec3 position;\nlayout(location = 1) in vec3 target;\n"
+         "layout(location = 2) in vec2 place;\nuniform mat4 clipFromWorld;\nuniform float morph;\nout vec2 "
+         "at;\n"
+         "void main() {\n    at = place;\n"
+         "    gl_Position = clipFromWorld * vec4(mix(position, target, morph), 1.0);\n}\n"},
+        {"plain mesh, fragments", "",
+         "in vec2 at;\nuniform sampler2D picture;\nout vec4 colour;\n"
+         "void main() { colour = texture(picture, at); }\n"});
     if (!program) return tl::unexpected(program.error());
-    const std::vector<std::uint32_t> indices = gridIndices(
-        selection.draw.size(), static_cast<std::uint32_t>(planet::chunkCells(scene.planet->tree().shape)));
-    StaticMesh mesh{std::move(*program),
-                    planet::gl::makeVertexArray(),
-                    planet::gl::makeBuffer(),
-                    planet::gl::makeBuffer(),
-                    static_cast<GLsizei>(indices.size()),
-                    scene.renderer.chunks().capabilities().reversedZ};
+    const int cells = planet::chunkCells(scene.planet->tree().shape);
+    const planet::gl::ChunkGrid grid = planet::gl::chunkGrid(cells);
+    const auto size = static_cast<std::size_t>(cells + 1);
+    const std::size_t chunks = positions->size() / (size * size);
+    std::vector<PlainVertex> vertices;
+    for (std::size_t i = 0; i < positions->size(); ++i) {
+        const glm::vec2 column(static_cast<float>(i % size), static_cast<float>(i / size % size));
+        vertices.push_back({(*positions)[i], (*targets)[i], column / static_cast<float>(cells)});
+    }
+    std::vector<std::uint32_t> indices;
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+        for (std::uint32_t i = 0; i < grid.gridIndexCount; ++i)
+            indices.push_back(static_cast<std::uint32_t>(chunk * size * size) + grid.indices[i]);
+    }
+    PlainMesh mesh{std::move(*program),
+                   planet::gl::makeVertexArray(),
+                   planet::gl::makeBuffer(),
+                   planet::gl::makeBuffer(),
+                   plainTexture(),
+                   static_cast<GLsizei>(indices.size()),
+                   scene.renderer.chunks().projection()};
     glBindVertexArray(mesh.array.name());
     glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.name());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(positions->size() * sizeof(glm::vec3)),
-                 positions->data(), GL_STATIC_DRAW);
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    glEnableVertexAttribArray(0);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(PlainVertex)),
+                 vertices.data(), GL_STATIC_DRAW);
+    constexpr std::array<planet::gl::VertexInput, 3> inputs = {
+        {{.name = "position", .components = 3, .offset = offsetof(PlainVertex, position)},
+         {.name = "target", .components = 3, .offset = offsetof(PlainVertex, target)},
+         {.name = "place", .components = 2, .offset = offsetof(PlainVertex, place)}}};
+    planet::gl::describeInputs(inputs, 0, sizeof(PlainVertex), 0);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.name());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
                  indices.data(), GL_STATIC_DRAW);
@@ -163,29 +205,113 @@ Result<StaticMesh> makeStaticMesh(Scene& scene, const planet::View& view, const 
     return mesh;
 }
 
-void drawStatic(const StaticMesh& mesh, const planet::View& view, const planet::gl::Projection& projection) {
+void drawPlain(const PlainMesh& mesh, const planet::View& view) {
     const glm::mat4 clipFromWorld =
-        projection.clipFromCamera * glm::dmat4(planet::cameraFromWorldRotation(view));
+        mesh.projection.clipFromCamera * glm::dmat4(planet::cameraFromWorldRotation(view));
     glViewport(0, 0, view.widthPx, view.heightPx);
-    glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
-    glDepthFunc(mesh.reversedZ ? GL_GREATER : GL_LESS);
-    if (mesh.reversedZ) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glClearDepth(mesh.reversedZ ? 0 : 1);
+    glClearColor(0, 0, 0, 1);
+    planet::gl::beginDepthTest(mesh.projection.reversedZ);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glUseProgram(mesh.program.name());
-    glUniformMatrix4fv(glGetUniformLocation(mesh.program.name(), "clipFromWorld"), 1, GL_FALSE,
+    const GLuint program = mesh.program.name();
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "clipFromWorld"), 1, GL_FALSE,
                        glm::value_ptr(clipFromWorld));
+    glUniform1f(glGetUniformLocation(program, "morph"), 0.3f);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, mesh.texture.name());
     glBindVertexArray(mesh.array.name());
     glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
     glBindVertexArray(0);
     glUseProgram(0);
-    glClearDepth(1);
-    glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
-    if (mesh.reversedZ) glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    planet::gl::endDepthTest(mesh.projection.reversedZ);
+}
+
+// The cost of one frame until the last of its pixels is drawn.
+struct FrameCost {
+    double wallMs = 0;
+    double cpuMs = 0;  // of all threads of the process
+    double gpuMs = 0;
+};
+
+double processCpuMs() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+FrameCost measureFrame(const std::function<void()>& frame) {
+    const planet::gl::Query begin = planet::gl::makeQuery();
+    const planet::gl::Query end = planet::gl::makeQuery();
     glFinish();
+    const Stopwatch watch;
+    const double cpuMs = processCpuMs();
+    glQueryCounter(begin.name(), GL_TIMESTAMP);
+    frame();
+    glQueryCounter(end.name(), GL_TIMESTAMP);
+    glFinish();
+    FrameCost cost{watch.elapsedMs(), processCpuMs() - cpuMs, 0};
+    std::array<GLuint64, 2> ns{};
+    glGetQueryObjectui64v(begin.name(), GL_QUERY_RESULT, ns.data());
+    glGetQueryObjectui64v(end.name(), GL_QUERY_RESULT, &ns[1]);
+    cost.gpuMs = 1e-6 * static_cast<double>(ns[1] - ns[0]);
+    return cost;
+}
+
+// Draws all frames in turn until the shaders are compiled and a GPU runs at its full clock.
+void warmUp(std::span<const std::function<void()>> frames) {
+    constexpr double leastMs = 1000;
+    const Stopwatch watch;
+    for (int round = 0; round < 2 || watch.elapsedMs() < leastMs; ++round) {
+        for (const auto& frame : frames) {
+            frame();
+            glFinish();
+        }
+    }
+}
+
+// One of the frames that are compared; the last of them is the yardstick.
+struct FrameSubject {
+    std::string name;
+    std::function<void()> draw;
+    std::optional<BenchAim> aim{};  // of what bounds the frame: the CPU with software rendering, else the GPU
+};
+
+// Adds the rows of frames that are measured in turn.
+void addFrames(const std::vector<FrameSubject>& subjects, const std::string& yardstick, int rounds,
+               bool software, std::vector<BenchRow>& rows) {
+    std::vector<std::function<void()>> frames;
+    for (const FrameSubject& subject : subjects) frames.push_back(subject.draw);
+    warmUp(frames);
+    std::vector<std::vector<FrameCost>> costs(subjects.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < subjects.size(); ++i) costs[i].push_back(measureFrame(frames[i]));
+    }
+    struct Quantity {
+        const char* name;
+        double FrameCost::*ms;
+        bool isAimed;
+    };
+    std::vector<Quantity> quantities = {{"frame", &FrameCost::wallMs, false},
+                                        {"CPU, all threads", &FrameCost::cpuMs, software}};
+    if (!software) quantities.push_back({"GPU", &FrameCost::gpuMs, true});
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+        for (const Quantity& quantity : quantities) {
+            const auto values = [&](const std::vector<FrameCost>& of) {
+                std::vector<double> ms;
+                for (const FrameCost& cost : of) ms.push_back(cost.*quantity.ms);
+                return ms;
+            };
+            BenchRow row{subjects[i].name, quantity.name, "ms", spreadOf(values(costs[i]))};
+            if (i + 1 < subjects.size()) {
+                row.ratio = spreadOf(ratios(values(costs[i]), values(costs.back())));
+                row.yardstick = yardstick;
+                if (quantity.isAimed) row.aim = subjects[i].aim;
+            }
+            rows.push_back(std::move(row));
+        }
+    }
 }
 
 // Adds the rows of alternating measurements; the last subject is the baseline.
@@ -254,7 +380,7 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
 
     std::vector<std::function<void()>> frames;
     for (Contender& contender : contenders) frames.push_back([&] { drawFrame(contender, view); });
-    frames.front()();  // compiles the shaders, which happens on first use
+    warmUp(frames);
     std::vector<BenchRow> rows;
     std::vector<std::string> subjects;
     for (const Contender& contender : contenders) subjects.push_back(contender.name);
@@ -277,17 +403,65 @@ BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOption
     Result<Contender> dynamic = openContender("selection and draw", settings, planet, view);
     if (!dynamic) return tl::unexpected(dynamic.error());
     drawFrame(*dynamic, view);
-    const Result<StaticMesh> mesh = makeStaticMesh(dynamic->scene, view, settings);
-    if (!mesh) return tl::unexpected(mesh.error());
-    const planet::gl::Projection projection = dynamic->scene.renderer.chunks().projection();
-    const std::array<std::function<void()>, 2> frames = {[&] { drawFrame(*dynamic, view); },
-                                                         [&] { drawStatic(*mesh, view, projection); }};
-    for (const auto& frame : frames) frame();
+    planet::gl::ChunkRenderer& chunks = dynamic->scene.renderer.chunks();
+    const planet::Selection& selection = dynamic->scene.planet->selection();
+    const Result<planet::gl::CapturedDraw> captured =
+        chunks.capture(view, selection.draw, renderSettingsOf(settings, view, dynamic->scene.planet->tree()));
+    if (!captured) return tl::unexpected(captured.error());
     std::vector<BenchRow> rows;
-    addTimes({"selection and draw", "the same triangles, static"}, timeInTurn(frames, options.rounds),
-             "static", rows);
-    rows.front().aim = {.bound = 1.2, .isOfRatio = true};
-    rows.push_back({"either", "triangles", "", exactly(static_cast<double>(mesh->indexCount) / 3)});
+    addFrames({{"selection and draw", [&] { drawFrame(*dynamic, view); },
+                BenchAim{.bound = 1.2, .isOfRatio = true}},
+               {"the same triangles, static", [&] { chunks.draw(view, *captured); }}},
+              "static", options.rounds, chunks.capabilities().software, rows);
+    rows.push_back({"either", "triangles", "", exactly(static_cast<double>(captured->indexCount) / 3)});
+    return rows;
+}
+
+BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& colourImage,
+                     const BenchOptions& options) {
+    Result<Drawing> drawing = openDrawing(options.size);
+    if (!drawing) return tl::unexpected(drawing.error());
+    const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
+    if (!file) return tl::unexpected(file.error());
+    const ViewSettings everything;
+    ViewSettings plain = everything;
+    plain.surface.lighting = false;
+    plain.surface.atmosphere = false;
+    plain.surface.detail = false;
+    const auto ratioOf = [](double bound) { return BenchAim{.bound = bound, .isOfRatio = true}; };
+    std::vector<BenchRow> rows;
+    // In the small picture, the same chunks have an eighth of the pixels along each side, so vertices count most.
+    constexpr int smaller = 8;
+    for (const int divisor : {1, smaller}) {
+        const PictureSize size{options.size.widthPx / divisor, options.size.heightPx / divisor};
+        const planet::View view = benchView(file->info().shape, size);
+        const std::string picture = fmt::format("{} x {}", size.widthPx, size.heightPx);
+        std::vector<Contender> contenders;
+        for (const bool isPlain : {false, true}) {
+            const char* const name = isPlain ? "without light, air and detail" : "as a first start has it";
+            ViewSettings scaled = isPlain ? plain : everything;
+            scaled.lod.tauPx /= divisor;
+            Result<Contender> opened =
+                openContender(fmt::format("{}, {}", picture, name), scaled, planet, view, colourImage);
+            if (!opened) return tl::unexpected(opened.error());
+            contenders.push_back(std::move(*opened));
+        }
+        for (Contender& contender : contenders) drawFrame(contender, view);
+        const Result<PlainMesh> mesh = makePlainMesh(contenders[1].scene, view, contenders[1].settings);
+        if (!mesh) return tl::unexpected(mesh.error());
+        std::vector<FrameSubject> subjects = {
+            {contenders[0].name, [&] { drawFrame(contenders[0], view); }, ratioOf(2.5)},
+            {contenders[1].name, [&] { drawFrame(contenders[1], view); }, ratioOf(1.3)},
+            {picture + ", morph and one texture", [&] { drawPlain(*mesh, view); }}};
+        if (divisor != 1) subjects[0].aim = subjects[1].aim = std::nullopt;
+        addFrames(subjects, "one texture", options.rounds,
+                  contenders[0].scene.renderer.chunks().capabilities().software, rows);
+        for (const Contender& contender : contenders)
+            rows.push_back({contender.name, "triangles", "",
+                            exactly(static_cast<double>(contender.scene.drawn.triangles()))});
+        rows.push_back({picture + ", morph and one texture", "triangles", "",
+                        exactly(static_cast<double>(mesh->indexCount) / 3)});
+    }
     return rows;
 }
 

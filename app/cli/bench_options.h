@@ -13,8 +13,8 @@
 
 namespace worldy {
 
-inline constexpr std::array<std::string_view, 9> benchParts = {
-    "lod", "dynamic", "selection", "page_in", "bake", "verify", "file_size", "colours", "start"};
+inline constexpr std::array<std::string_view, 10> benchParts = {
+    "lod", "frame", "dynamic", "selection", "page_in", "bake", "verify", "file_size", "colours", "start"};
 
 struct BenchOptions {
     std::filesystem::path source;  // an elevation image or cube faces; empty: the built-in Earth

@@ -60,8 +60,13 @@ std::vector<std::vector<double>> timeInTurn(std::span<const std::function<void()
 
 // (a) Measures LOD frames at each tau against frames that draw every leaf: time, triangles, memory.
 BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& options);
-// (b) Measures selecting and drawing against one draw of the same triangles from a static buffer.
+// (b) Measures selecting and drawing against one draw of the same triangles from a static buffer, with the same fragment
+// shader.
 BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOptions& options);
+// (j) Measures frames with everything and with less against a plain mesh that morphs and has one texture, in a picture of the
+// size asked for and in a small one. colourImage empty: a colour ramp by height.
+BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& colourImage,
+                     const BenchOptions& options);
 // (c) Measures selection, per visited node and per frame.
 BenchRows benchSelection(const BenchPlanet& planet, const BenchOptions& options);
 // (d) Measures paging in the blocks of a view against reading and decoding the same blocks in a loop.

@@ -1,7 +1,11 @@
 #include "planet/gl/draw/chunk_programs.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
+#include <regex>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -193,6 +197,39 @@ Result<Program> ChunkPrograms::capturing(Switches switches, std::span<const char
     const std::string prologue = shaderPrologue(switches);
     return linkProgram(texts_->chunkVertex, texts_->chunkFragment,
                        {.prologue = prologue, .inputs = chunkInputs(), .captured = outputs});
+}
+
+std::vector<VertexOutput> ChunkPrograms::chunkOutputs() const {
+    static const std::regex declaration(R"(\n(flat )?out (float|vec([234])) (\w+);)");
+    const std::string& text = texts_->chunkVertex.text;
+    std::vector<VertexOutput> outputs;
+    for (std::sregex_iterator found(text.begin(), text.end(), declaration); found != std::sregex_iterator();
+         ++found) {
+        const std::smatch& match = *found;
+        outputs.push_back({match[4], match[2], match[3].matched ? std::stoi(match[3]) : 1, match[1].matched});
+    }
+    return outputs;
+}
+
+Result<Program> ChunkPrograms::passingOn(Switches switches) const {
+    static constexpr auto frameFiles = std::to_array<std::string_view>({"frame.glsl"});
+    Result<ShaderText> vertex = readShader(folder_, frameFiles);
+    if (!vertex) return tl::unexpected(vertex.error());
+    const std::vector<VertexOutput> outputs = chunkOutputs();
+    std::vector<std::string> names;
+    std::string copies;
+    for (const VertexOutput& output : outputs) {
+        names.push_back(output.name + "Held");
+        vertex->text += fmt::format("in {0} {1}Held;\n{2}out {0} {1};\n", output.type, output.name,
+                                    output.isFlat ? "flat " : "");
+        copies += fmt::format("    {0} = {0}Held;\n", output.name);
+    }
+    vertex->text +=
+        "void main() {\n" + copies + "    gl_Position = frame.clipFromWorld * vec4(surface, 1.0);\n}\n";
+    std::vector<VertexInput> inputs;
+    for (const std::string& name : names) inputs.push_back({.name = name.c_str()});
+    const std::string prologue = shaderPrologue(switches);
+    return linkProgram(*vertex, texts_->chunkFragment, {.prologue = prologue, .inputs = inputs});
 }
 
 }  // namespace planet::gl

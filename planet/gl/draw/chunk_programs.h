@@ -9,6 +9,7 @@
 #include <mutex>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,14 @@ struct ProgramKey {
     Switches switches = 0;
 
     auto operator<=>(const ProgramKey&) const = default;
+};
+
+// An output of a vertex shader; all are floats.
+struct VertexOutput {
+    std::string name;
+    std::string type;  // in GLSL
+    GLint components = 1;
+    bool isFlat = false;
 };
 
 // Can be shared by any number of renderers whose contexts share objects.
@@ -61,6 +70,11 @@ public:
 
     // Compiles a chunk program whose vertex outputs of these names can be captured.
     Result<Program> capturing(Switches switches, std::span<const char* const> outputs) const;
+    // Returns the outputs of the chunks' vertex shader, in the order in which it declares them.
+    std::vector<VertexOutput> chunkOutputs() const;
+    // Compiles a program with the fragment shader of chunks, whose vertices hold the outputs of the vertex shader of chunks
+    // as inputs: chunkOutputs(), in this order.
+    Result<Program> passingOn(Switches switches) const;
 
     const Program& faceImage() const { return faceImage_; }
     const Program& clipmapFill() const { return clipmapFill_; }

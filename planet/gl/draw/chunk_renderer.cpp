@@ -19,6 +19,7 @@
 #include "planet/gl/device/keep_framebuffers.h"
 #include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/device/software_renderer.h"
+#include "planet/gl/device/vertex_inputs.h"
 #include "planet/gl/draw/chunk_grid.h"
 #include "planet/gl/draw/chunk_instances.h"
 #include "planet/gl/draw/chunk_programs.h"
@@ -130,6 +131,8 @@ struct ChunkRenderer::State {
     ChunkInstances instanceData;
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
+    Switches drawnSwitches = 0;  // of the chunks in the last draw
+    bool drawnPhysicalSky = false;
     ColourImage image;
     std::optional<TilePool> colours;
     std::optional<ColourClipmap> clipmap;  // of the pool above
@@ -167,6 +170,8 @@ struct ChunkRenderer::State {
     bool drawsNormals(const RenderSettings& settings) const;
     void bindInputs() const;
     void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program* program);
+    void beginPicture(const View& view) const;  // sets the state and clears
+    void endPicture() const;
     void drawSky(const Program& program) const;
 };
 
@@ -408,6 +413,22 @@ void ChunkRenderer::State::drawChunks(std::span<const DrawItem> items, const Ren
     counters.skirtTriangles = (static_cast<std::uint64_t>(indexCount / 3) - ground) * items.size();
 }
 
+void ChunkRenderer::State::beginPicture(const View& view) const {
+    glViewport(0, 0, view.widthPx, view.heightPx);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
+    glClearColor(0, 0, 0, 1);
+    beginDepthTest(projection.reversedZ);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void ChunkRenderer::State::endPicture() const {
+    endDepthTest(projection.reversedZ);
+    glBindVertexArray(0);
+    glUseProgram(0);
+}
+
 // Draws behind everything, so that only pixels without a chunk are shaded.
 void ChunkRenderer::State::drawSky(const Program& program) const {
     glDepthMask(GL_FALSE);
@@ -593,26 +614,20 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     const bool mayStandIn = wait == ShaderWait::Never && state.programs->canOrder();
     const DrawnWith with =
         mayStandIn ? state.programsAtHand(switches, physicalSky) : state.programsFor(switches, physicalSky);
+    state.drawnSwitches = switches;
+    state.drawnPhysicalSky = physicalSky;
     state.shadowsTimer.begin();
     if (with.depth) state.drawShadows(view, items, settings, *with.depth);
     state.shadowsTimer.end();
 
     state.chunksTimer.begin();
-    glViewport(0, 0, view.widthPx, view.heightPx);
-    glDisable(GL_BLEND);
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
-    glClearColor(0, 0, 0, 1);
-    beginDepthTest(state.projection.reversedZ);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    state.beginPicture(view);
     state.drawChunks(with.chunk ? items : std::span<const DrawItem>(), settings, with.chunk);
     state.chunksTimer.end();
     state.skyTimer.begin();
     if (with.sky) state.drawSky(*with.sky);
     state.skyTimer.end();
-    endDepthTest(state.projection.reversedZ);
-    glBindVertexArray(0);
-    glUseProgram(0);
+    state.endPicture();
 
     state.counters.chunksMs = state.chunksTimer.lastMs();
     state.counters.skyMs = state.skyTimer.lastMs();
@@ -661,6 +676,83 @@ Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& vi
     glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, surface.data());
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
     return surface;
+}
+
+Result<CapturedDraw> ChunkRenderer::capture(const View& view, std::span<const DrawItem> items,
+                                            const RenderSettings& settings) {
+    State& state = *state_;
+    std::vector<const char*> names;
+    std::vector<VertexInput> inputs;
+    std::size_t vertexBytes = 0;
+    const std::vector<VertexOutput> outputs = state.programs->chunkOutputs();
+    for (const VertexOutput& output : outputs) {
+        names.push_back(output.name.c_str());
+        inputs.push_back(
+            {.name = output.name.c_str(), .components = output.components, .offset = vertexBytes});
+        vertexBytes += static_cast<std::size_t>(output.components) * sizeof(float);
+    }
+    Result<Program> capturing = state.programs->capturing(state.drawnSwitches, names);
+    if (!capturing) return tl::unexpected(capturing.error());
+    Result<Program> program = state.programs->passingOn(state.drawnSwitches);
+    if (!program) return tl::unexpected(program.error());
+
+    const ChunkGrid grid = chunkGrid(chunkCells(state.config.shape));
+    const auto perChunk = static_cast<GLsizei>(grid.vertices.size());
+    const auto chunks = static_cast<GLsizei>(items.size());
+    const bool skirts =
+        std::any_of(items.begin(), items.end(), [](const DrawItem& item) { return item.skirtDepthM > 0; });
+    std::vector<std::uint32_t> indices;
+    for (GLsizei chunk = 0; chunk < chunks; ++chunk) {
+        const std::size_t count = skirts ? grid.indices.size() : grid.gridIndexCount;
+        for (std::size_t i = 0; i < count; ++i)
+            indices.push_back(static_cast<std::uint32_t>(chunk * perChunk) + grid.indices[i]);
+    }
+    CapturedDraw captured{std::move(*program), makeVertexArray(), makeBuffer(), makeBuffer(),
+                          static_cast<GLsizei>(indices.size())};
+    glBindVertexArray(captured.array.name());
+    glBindBuffer(GL_ARRAY_BUFFER, captured.vertices.name());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, captured.indices.name());
+    const bool hasRoom = hasRoomFor([&] {
+        glBufferData(GL_ARRAY_BUFFER,
+                     static_cast<GLsizeiptr>(items.size() * grid.vertices.size() * vertexBytes), nullptr,
+                     GL_STATIC_DRAW);
+        glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
+                     indices.data(), GL_STATIC_DRAW);
+    });
+    if (!hasRoom) {
+        glBindVertexArray(0);
+        return badInput(fmt::format("GPU out of memory: the captured vertices of {} chunks", items.size()));
+    }
+    describeInputs(inputs, 0, static_cast<GLsizei>(vertexBytes), 0);
+
+    state.fillInstances(items, {}, settings.stitched);
+    state.fillFrame(view, settings, ShaderWait::UntilReady);
+    state.bindInputs();
+    glUseProgram(capturing->name());
+    glBindVertexArray(state.chunkArray.name());
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, captured.vertices.name());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArraysInstanced(GL_POINTS, 0, perChunk, chunks);
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    glBindVertexArray(0);
+    glUseProgram(0);
+    return captured;
+}
+
+void ChunkRenderer::draw(const View& view, const CapturedDraw& captured) {
+    const State& state = *state_;
+    state.bindInputs();
+    state.beginPicture(view);
+    glEnable(GL_CULL_FACE);
+    glUseProgram(captured.program.name());
+    glBindVertexArray(captured.array.name());
+    glDrawElements(GL_TRIANGLES, captured.indexCount, GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_CULL_FACE);
+    state.drawSky(state.programs->program(skyKey(state.drawnPhysicalSky)));
+    state.endPicture();
 }
 
 bool ChunkRenderer::drawsShadows(const RenderSettings& settings) const {

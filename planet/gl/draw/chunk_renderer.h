@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "planet/base/result.h"
+#include "planet/gl/draw/captured_draw.h"
 #include "planet/gl/draw/projection.h"
 #include "planet/gl/draw/render_counters.h"
 #include "planet/gl/draw/render_settings.h"
@@ -119,6 +120,14 @@ public:
     // is for tests and measurements. Draws nothing, but OpenGL requires a complete framebuffer to be bound.
     Result<std::vector<glm::vec3>> readVertexPositions(const View& view, std::span<const DrawItem> items,
                                                        const RenderSettings& settings);
+
+    // Captures the ground that the last draw() drew with the same arguments, skirts included. Waits for the GPU, so it is
+    // for measurements. Draws nothing, but OpenGL requires a complete framebuffer to be bound.
+    Result<CapturedDraw> capture(const View& view, std::span<const DrawItem> items,
+                                 const RenderSettings& settings);
+    // Draws the same picture as the last draw(), whose arguments the capture must have had, with the captured ground in
+    // place of the chunks. The shadow maps stay those of the last draw().
+    void draw(const View& view, const CapturedDraw& captured);
 
     const RenderCounters& counters() const;
     const RenderCapabilities& capabilities() const;

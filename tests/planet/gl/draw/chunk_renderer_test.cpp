@@ -648,6 +648,30 @@ TEST_F(ChunkRendererTest, AnotherShapeDrawsTheSameStepsAtItsOwnHeights) {
     EXPECT_NEAR(once - distance(), 16000, 40);
 }
 
+// With skirts, light, air and detail.
+TEST_F(ChunkRendererTest, aCapturedDrawIsTheSamePictureWithoutTheChunks) {
+    TestPlanet planet({}, 24);
+    planet.addLevel(
+        1, [](const glm::dvec3& d) { return 6000 * std::sin(20 * d.x) * std::sin(15 * d.y); }, 3000);
+    for (std::size_t i = 0; i < planet.items().size(); ++i)
+        planet.items()[i].morph = i % 2 == 0 ? 0.3f : 0.0f;
+    RenderSettings settings;
+    settings.surface = SurfaceColour::HeightRamp;
+    settings.light.shadows.use = FeatureUse::On;
+    const View view = viewFrom({}, 20, 20, 8e5, -45, 30, 200, 150);
+    const Picture drawn = drawPicture(planet.renderer(), view, planet.items(), settings);
+    const RenderTarget target = valueOf(RenderTarget::create(view.widthPx, view.heightPx));
+    target.bind();
+    planet.renderer().draw(view, planet.items(), settings);
+    const CapturedDraw captured = valueOf(planet.renderer().capture(view, planet.items(), settings));
+    for (std::uint32_t slot = 0; slot < 24; ++slot)
+        planet.renderer().upload(slot, chunkSteps({}, planet.items()[slot].id, flat));
+    planet.renderer().draw(view, captured);
+    EXPECT_EQ(target.readDepth(), drawn.depth);
+    EXPECT_EQ(target.readRgb(), drawn.rgb);
+    EXPECT_EQ(captured.indexCount, 24 * 3 * 2 * (32 * 32 + 4 * 32));
+}
+
 TEST_F(ChunkRendererTest, StateIsLeftAsANewContextHasIt) {
     TestPlanet planet({}, 6);
     planet.addLevel(0, flat);
