@@ -11,18 +11,31 @@ const float haze = 0.007;  // grey and mostly forward scattering
 const vec3 sunLight = vec3(3.4, 3.3, 3.15);
 const vec3 sunExtinction = 1.6 * scattering + vec3(haze);  // redder evenings than such thin air gives
 
-// Returns the air mass from a height outwards. rise: cosine of the ray to the zenith, >= 0.
+// Returns the air mass along the horizontal from a radius, scale heights, of that straight up.
+float grazingAt(float radius) {
+    return sqrt(1.5708 * radius);
+}
+
+// Returns the air mass along a ray outwards, of that straight up. rise: cosine of the ray to the zenith, >= 0.
+float slantOf(float grazing, float rise) {
+    return grazing / ((grazing - 1.0) * rise + 1.0);
+}
+
+// Returns the air mass from a height outwards.
 float airAbove(float height, float rise) {
-    float grazing = sqrt(1.5708 * (frame.radiusScaleHeights + height));
-    return grazing / ((grazing - 1.0) * rise + 1.0) * exp(-height);
+    return slantOf(grazingAt(frame.radiusScaleHeights + height), rise) * exp(-height);
+}
+
+// Returns the air mass of a whole ray, both ways from its lowest point.
+float airThroughLowest(float lowestRadius) {
+    return 2.0 * grazingAt(lowestRadius) * exp(frame.radiusScaleHeights - lowestRadius);
 }
 
 // Returns the air mass for a ray that may dip below the horizontal: the air from its lowest point in both
 // directions, less the part behind its start.
 float airAlong(float height, float rise, float lowestRadius) {
     if (rise >= 0.0) return airAbove(height, rise);
-    float both = 2.0 * sqrt(1.5708 * lowestRadius) * exp(frame.radiusScaleHeights - lowestRadius);
-    return both - airAbove(height, -rise);
+    return airThroughLowest(lowestRadius) - airAbove(height, -rise);
 }
 
 // Returns the transmittance of the sun's light at a height. sunRise: cosine of the sun to the zenith.
@@ -58,24 +71,18 @@ vec3 scatteringBeforeGround() {
     return mix(scattering, vec3(0.030, 0.055, 0.104), frame.nearGround);
 }
 
-// Returns the air mass from a height outwards, for heights that are small compared with the radius.
-float airAboveGround(float height, float rise) {
-    float grazing = sqrt(1.5708 * frame.radiusScaleHeights);
-    return grazing / ((grazing - 1.0) * rise + 1.0) * exp(-height);
-}
-
 // Returns the air mass between the eye and a place on the surface; for the same reason it is reduced before
 // near ground and increased before far ground. ray, up: unit vectors. height: scale heights. A ray that falls
 // at the eye and rises at its end, to ground beyond the horizon, passes its lowest point on the way.
 float airBefore(vec3 ray, vec3 up, float height) {
     float fall = dot(frame.eyeUp, ray);
     float rise = dot(up, ray);
-    float ground = airAboveGround(height, abs(rise));
-    float here = airAbove(frame.eyeScaleHeights, abs(fall));
+    float ground = slantOf(frame.groundGrazing, abs(rise)) * exp(-height);  // heights are small beside the radius
+    float here = slantOf(frame.eyeGrazing, abs(fall)) * frame.eyeAir;
     float mass = fall < 0.0 ? ground - here : here - ground;
     if (fall < 0.0 && rise > 0.0) {
         float lowest = (frame.radiusScaleHeights + frame.eyeScaleHeights) * sqrt(max(1.0 - fall * fall, 0.0));
-        mass = airAlong(frame.eyeScaleHeights, fall, max(lowest, frame.radiusScaleHeights - 8.0)) - ground;
+        mass = airThroughLowest(max(lowest, frame.radiusScaleHeights - 8.0)) - here - ground;
     }
     mass = max(mass, 0.0);
     return mass * mix(1.0, mass * (1.0 + 0.125 * mass) / (mass + 1.8), frame.nearGround);

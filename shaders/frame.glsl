@@ -60,6 +60,9 @@ layout(std140) uniform Frame {
     float scaleHeightsPerM;
     int drawsAtmosphere;
     float nearGround;  // 1 near the ground, 0 in space
+    float groundGrazing;  // air mass along the horizontal at height 0, of that straight up (grazingAt)
+    float eyeGrazing;     // the same at the eye
+    float eyeAir;         // air mass straight up from the eye
 
     DetailOctave detail[3];
     float heightStepPxM;  // pixels x metres: the size of a step of the heights at a distance of one metre

@@ -18,6 +18,7 @@ float seaGlint(vec3 normal, vec3 toEye) {
 // Returns the debug light for ground where the sun is down. It comes from the upper left of the view, so that
 // slopes look as on a shaded map.
 float fillLight(vec3 normal, vec3 toEye, vec3 up) {
+    if (!switchFill) return 0.0;
     float night = 1.0 - smoothstep(-0.10, 0.15, dot(up, frame.sun));
     vec3 from = normalize(toEye + 0.7 * (normalize(frame.rayUp) - normalize(frame.rayRight)));
     return 2.0 * frame.fill * night * (0.2 + 0.8 * max(dot(normal, from), 0.0));

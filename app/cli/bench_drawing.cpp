@@ -45,7 +45,7 @@ ViewSettings benchSettings(double tauPx, int budgetMB) {
     settings.lod.seams = planet::SeamMode::None;
     settings.surface.lighting = false;
     settings.surface.atmosphere = false;
-    settings.surface.detail = false;
+    settings.surface.detail = planet::gl::FeatureUse::Off;
     settings.surface.layers.use = planet::gl::FeatureUse::Off;
     settings.surface.surface = planet::gl::SurfaceColour::HeightRamp;
     return settings;
@@ -427,7 +427,7 @@ BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& col
     ViewSettings plain = everything;
     plain.surface.lighting = false;
     plain.surface.atmosphere = false;
-    plain.surface.detail = false;
+    plain.surface.detail = planet::gl::FeatureUse::Off;
     const auto ratioOf = [](double bound) { return BenchAim{.bound = bound, .isOfRatio = true}; };
     std::vector<BenchRow> rows;
     // In the small picture, the same chunks have an eighth of the pixels along each side, so vertices count most.

@@ -25,8 +25,8 @@ ViewSettings barePicture(const ViewSettings& settings) {
     ViewSettings bare = settings;
     SurfaceSettings& surface = bare.surface;
     surface.lighting = true;
-    surface.atmosphere = surface.detail = surface.streamed = false;
-    surface.layers.use = surface.light.air.use = surface.light.sea.use = FeatureUse::Off;
+    surface.atmosphere = surface.streamed = false;
+    surface.detail = surface.layers.use = surface.light.air.use = surface.light.sea.use = FeatureUse::Off;
     surface.light.shadows.use = surface.light.normals.use = FeatureUse::Off;
     return bare;
 }
@@ -48,7 +48,7 @@ std::vector<PartSettings> partsOf(const ViewSettings& settings, const PartsThere
     add("shadows", [](SurfaceSettings& surface) { surface.light.shadows.use = FeatureUse::On; });
     if (there.normals)
         add("normals", [](SurfaceSettings& surface) { surface.light.normals.use = FeatureUse::On; });
-    add("detail", [](SurfaceSettings& surface) { surface.detail = true; });
+    add("detail", [](SurfaceSettings& surface) { surface.detail = FeatureUse::On; });
     add("layers", [](SurfaceSettings& surface) { surface.layers.use = FeatureUse::On; });
     if (there.colours) add("streamed colours", [](SurfaceSettings& surface) { surface.streamed = true; });
     parts.push_back({"all features", all});

@@ -15,9 +15,11 @@ FeatureUse& useOf(CostlyPart part, SurfaceSettings& surface) {
         case CostlyPart::Shadows:
             return surface.light.shadows.use;
         case CostlyPart::Sea:
+            return surface.light.sea.use;
+        case CostlyPart::Detail:
             break;
     }
-    return surface.light.sea.use;
+    return surface.detail;
 }
 
 void turnDown(const TurnedDown& turnedDown, SurfaceSettings& surface) {

@@ -10,8 +10,8 @@
 
 namespace worldy {
 
-enum class CostlyPart : std::uint8_t { Air, Normals, Layers, Shadows, Sea };
-inline constexpr std::size_t costlyPartCount = 5;
+enum class CostlyPart : std::uint8_t { Air, Normals, Layers, Shadows, Sea, Detail };
+inline constexpr std::size_t costlyPartCount = 6;
 
 inline constexpr double affordedMs = 50;  // GPU time budget of a frame
 inline constexpr double patienceS = 2;  // time for which frames may exceed it before a feature is turned off

@@ -286,8 +286,9 @@ void addSurface(Fields& fields, SurfaceSettings& surface) {
          {"surface", "atmosphere", "Atmosphere",
           "Draws haze and the sky. Off: no atmosphere, as on the Moon.", Flag{&surface.atmosphere}},
          {"surface", "detail", "Detail",
-          "Adds procedural roughness between the samples, to light and colour only; no measurement changes.",
-          Flag{&surface.detail}, "Surface detail"},
+          "Adds procedural roughness between the samples, to light and colour only; no measurement changes. "
+          "Automatic: on, but off with software rendering.",
+          Choice{asByte(surface.detail), featureUseNames}, "Surface detail"},
          {"surface", "sun_follows", "Sun follows",
           "Keeps the sun east of the camera, so it is always day there.", Flag{&surface.sunFollows}},
          {"surface", "sun_by_date", "Sun by date",

@@ -99,7 +99,7 @@ struct SurfaceSettings {
     double exaggeration = 1;
     bool lighting = true;
     bool atmosphere = true;
-    bool detail = true;
+    planet::gl::FeatureUse detail = planet::gl::FeatureUse::Automatic;
     // The sun stays east of the camera; otherwise its position follows from the date, or is the latitude and
     // longitude below.
     bool sunFollows = true;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "planet/gl/device/shader_inputs.h"
 #include "planet/sphere/vertex_position.h"
@@ -140,14 +141,17 @@ Switches switchesFor(const PlanetShape& shape, const View& view, const RenderSet
     const double coarsestM =
         std::max(samplesApartM(shape), withImage ? 1.5 * shape.radiusM / colours.faceSizePx : 0.0);
     const double stepPx = coarsestM * screenScalePx(view) / nearestGroundM;
-    const bool detail = settings.detail && settings.lighting && !settings.cube && !tinted && stepPx > 2;
+    const bool detail =
+        isUsed(settings.detail, software) && settings.lighting && !settings.cube && !tinted && stepPx > 2;
     const bool fineDetail = detail && stepPx > 200;
     const bool air = settings.atmosphere && settings.lighting && !settings.cube;
     const bool tiles = withImage && colours.streamed;
     const auto when = [](bool isOn, Switches bit) { return isOn ? bit : Switches{0}; };
-    return when(settings.lighting, switchLighting) | when(air, switchAir) | when(settings.cube, switchCube) |
-           when(detail, switchDetail) | when(fineDetail, switchFineDetail) | when(withImage, switchImage) |
-           when(tiles, switchTiles) | when(tiles && colours.fromClipmap, switchClipmap) |
+    return when(settings.lighting, switchLighting) |
+           when(settings.lighting && settings.light.fill > 0, switchFill) | when(air, switchAir) |
+           when(settings.cube, switchCube) | when(detail, switchDetail) | when(fineDetail, switchFineDetail) |
+           when(withImage, switchImage) | when(tiles, switchTiles) |
+           when(tiles && colours.fromClipmap, switchClipmap) |
            when(rampSeen && !settings.ramp.empty(), switchRamp) |
            when(withImage && rampSeen, switchImageOverRamp) | when(settings.sea, switchSea) |
            when(isSeaSurfaceDrawn(settings, software), switchSeaSurface) | when(tinted, switchTint) |
@@ -189,11 +193,15 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.fill = toFloat(settings.light.fill);
 
     uniforms.eyeUp = eyeRadiusM > 0 ? view.eyeM / eyeRadiusM : glm::dvec3(1, 0, 0);
-    uniforms.eyeScaleHeights = toFloat(std::max(eyeRadiusM / shape.radiusM - 1, 0.0) * radiusInScaleHeights);
+    const double eyeScaleHeights = std::max(eyeRadiusM / shape.radiusM - 1, 0.0) * radiusInScaleHeights;
+    uniforms.eyeScaleHeights = toFloat(eyeScaleHeights);
     uniforms.radiusScaleHeights = radiusInScaleHeights;
     uniforms.scaleHeightsPerM = toFloat(radiusInScaleHeights / shape.radiusM);
     uniforms.drawsAtmosphere = settings.atmosphere && !settings.cube ? 1 : 0;
     uniforms.nearGround = toFloat(nearness(shape, eyeRadiusM));
+    uniforms.groundGrazing = toFloat(std::sqrt(std::numbers::pi / 2 * radiusInScaleHeights));
+    uniforms.eyeGrazing = toFloat(std::sqrt(std::numbers::pi / 2 * (radiusInScaleHeights + eyeScaleHeights)));
+    uniforms.eyeAir = toFloat(std::exp(-eyeScaleHeights));
 
     setDetail(shape, view, colours, uniforms);
     setRamp(settings, uniforms);

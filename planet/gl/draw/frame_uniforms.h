@@ -55,6 +55,7 @@ struct FrameUniforms {
     float eyeScaleHeights, radiusScaleHeights, scaleHeightsPerM;
     int drawsAtmosphere;
     float nearGround;
+    float groundGrazing, eyeGrazing, eyeAir;
 
     alignas(16) std::array<DetailOctave, 3> detail;
     float heightStepPxM, imageStepPxM, imageStep, imageOpacity;

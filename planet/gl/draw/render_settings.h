@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "planet/surface/feature_use.h"
 #include "planet/surface/layer_drawing.h"
 #include "planet/surface/light_drawing.h"
 
@@ -65,7 +66,7 @@ struct RenderSettings {
     // Adds procedural detail to near ground, between the samples of the heights and the image. It changes
     // lighting and colour only; no vertex moves. It is off with tints or without lighting, and where the
     // samples are finer than two pixels.
-    bool detail = true;
+    FeatureUse detail = FeatureUse::Automatic;
     glm::dvec3 sunDirection{0.75, 0.45, 0.48};  // world, any length but 0
     LightDrawing light;
     // Materials on near ground that is not sea; their heights are relative to seaLevelM.

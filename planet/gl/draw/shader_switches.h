@@ -12,6 +12,7 @@ namespace planet::gl {
 // clang-format off
 #define PLANET_SHADER_SWITCHES(SWITCH)                                                            \
     SWITCH(switchLighting)       /* light from the sun and the sky; off: flat colours */          \
+    SWITCH(switchFill)           /* the fill light on the night side */                           \
     SWITCH(switchLightByVertex)  /* light and air are computed at vertices: triangles are small */\
     SWITCH(switchAir)            /* an atmosphere in front of the ground */                       \
     SWITCH(switchPhysicalAir)    /* the physical atmosphere of air.glsl, not the analytic one */  \

@@ -47,7 +47,7 @@ RenderSettings passSettings(bool stitched) {
     settings.stitched = stitched;
     settings.atmosphere = false;
     settings.lighting = false;
-    settings.detail = false;
+    settings.detail = FeatureUse::Off;
     return settings;
 }
 

@@ -17,7 +17,7 @@ class CompareControllerTest : public test::SessionTest {
 protected:
     CompareControllerTest() {
         settings_.lod.fadeS = 0;
-        settings_.surface.detail = false;
+        settings_.surface.detail = planet::gl::FeatureUse::Off;
         viewport_.main.rect = {0, 0, 200, 120};
     }
 

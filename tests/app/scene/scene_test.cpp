@@ -85,7 +85,7 @@ TEST_F(SceneTest, everySettingOfDrawingReachesTheLibraryAndHeightsAreExaggerated
     settings_.surface.sea = false;
     settings_.surface.seaLevelM = 50;
     settings_.surface.lighting = false;
-    settings_.surface.detail = false;
+    settings_.surface.detail = planet::gl::FeatureUse::Off;
     settings_.surface.sunFollows = false;
     settings_.surface.sunLatitudeDeg = 90;
     settings_.overlay.wireframe = true;
@@ -100,7 +100,7 @@ TEST_F(SceneTest, everySettingOfDrawingReachesTheLibraryAndHeightsAreExaggerated
     EXPECT_FALSE(render.sea);
     EXPECT_EQ(render.seaLevelM, 150);
     EXPECT_FALSE(render.lighting);
-    EXPECT_FALSE(render.detail);
+    EXPECT_EQ(render.detail, planet::gl::FeatureUse::Off);
     EXPECT_TRUE(render.atmosphere);
     EXPECT_NEAR(render.sunDirection.z, 1, 1e-9);
     EXPECT_TRUE(render.wireframe);

@@ -10,10 +10,11 @@ namespace worldy::ui {
 
 namespace {
 
-void lightControls(const SettingControls& control, SurfaceSettings& surface) {
+void lightControls(const EditorView& view, const SettingControls& control, SurfaceSettings& surface,
+                   Commands& commands) {
     control(surface.lighting);
-    control.beside(surface.detail);
     control(surface.light.fill);
+    featureControl(control, CostlyPart::Detail, view, surface, commands);
 }
 
 void seaControls(const EditorView& view, const SettingControls& control, SurfaceSettings& surface,
@@ -38,7 +39,7 @@ void lightPanel(const EditorView& view, ViewSettings& settings, Commands& comman
     const SettingControls control(settings);
     SurfaceSettings& surface = settings.surface;
     if (section("Sun")) sunControls(view, control, surface);
-    if (section("Light")) lightControls(control, surface);
+    if (section("Light")) lightControls(view, control, surface, commands);
     if (section("Normals")) normalControls(view, control, settings, commands);
     if (section("Atmosphere")) airControls(view, control, surface, commands);
     if (section("Water")) seaControls(view, control, surface, commands);

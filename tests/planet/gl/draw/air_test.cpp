@@ -399,7 +399,7 @@ TEST_F(AirPicture, AnalyticAirLiesBeforeHighGroundAtTheHorizonToo) {
     plateau.addLevel(3, [](const glm::dvec3& d) { return d.y > 0.015 ? 8000.0 : 0.0; });
     settings_.light.air.use = FeatureUse::Off;
     settings_.ramp = {{0, {0.05f, 0.05f, 0.05f}}};
-    settings_.detail = false;
+    settings_.detail = FeatureUse::Off;
     settings_.sunDirection = directionFromGeographic({0.5, 0.1});
     View view = viewFrom(plateau.shape(), 0.1, 0, 3000, 0, 90, 160, 240);
     view.horizontalFovRad = 0.17;
@@ -424,7 +424,7 @@ TEST_F(AirPicture, ByVertexOrByPixelIsTheSame) {
     settings_.light.sea.use = FeatureUse::Off;
     settings_.light.shadows.use = FeatureUse::Off;
     settings_.layers.use = FeatureUse::Off;
-    settings_.detail = false;
+    settings_.detail = FeatureUse::Off;
     const Picture byVertex = drawPicture(fine.renderer(), view, fine.items(), settings_);
     settings_.layers.use = FeatureUse::On;
     settings_.layers.set.layers = {TextureLayer{}};

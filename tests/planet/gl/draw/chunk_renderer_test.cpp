@@ -22,7 +22,7 @@ RenderSettings mattSettings() {
     settings.surface = SurfaceColour::HeightRamp;
     settings.ramp = {{0, {0.4f, 0.5f, 0.4f}}};
     settings.sea = false;
-    settings.detail = false;
+    settings.detail = FeatureUse::Off;
     settings.atmosphere = false;
     return settings;
 }
@@ -475,13 +475,14 @@ TEST_F(ChunkRendererTest, DetailShowsNearTheGroundAndMovesNothing) {
     TestPlanet planet({}, 384);
     planet.addLevel(3, ridges, 6000);
     RenderSettings with;
+    with.detail = FeatureUse::On;
     with.sunDirection = {1, 0.9, 0.2};
     const View near = viewFrom({}, 10, 10, 60000, -40, 0, 240, 160);
     const View far = viewFrom({}, 10, 10, 2e7, -90, 0, 240, 160);
     const auto drawBoth = [&](const View& view, RenderSettings settings,
                               std::span<const ChunkTint> tints = {}) {
         const Picture on = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
-        settings.detail = false;
+        settings.detail = FeatureUse::Off;
         const Picture off = drawPicture(planet.renderer(), view, planet.items(), settings, 1, tints);
         EXPECT_EQ(on.depth, off.depth);
         return largestDifference(on, off);
@@ -500,6 +501,7 @@ TEST_F(ChunkRendererTest, DetailAndImageHaveNoSeamAtTheEdgesOfFaces) {
     planet.addLevel(3, ridges);
     ASSERT_TRUE(planet.renderer().setColourImage(imageOfStripes(512, 256), 512, 256));
     RenderSettings settings;
+    settings.detail = FeatureUse::On;
     settings.sunDirection = {1, 1.2, 0.4};
     const auto stepAcross = [](const Picture& picture, int column) {
         double sum = 0;
@@ -657,6 +659,7 @@ TEST_F(ChunkRendererTest, aCapturedDrawIsTheSamePictureWithoutTheChunks) {
         planet.items()[i].morph = i % 2 == 0 ? 0.3f : 0.0f;
     RenderSettings settings;
     settings.surface = SurfaceColour::HeightRamp;
+    settings.detail = FeatureUse::On;
     settings.light.shadows.use = FeatureUse::On;
     const View view = viewFrom({}, 20, 20, 8e5, -45, 30, 200, 150);
     const Picture drawn = drawPicture(planet.renderer(), view, planet.items(), settings);

@@ -377,7 +377,7 @@ TEST_F(Layers, AreLitAndBentByTheirNormals) {
     for (std::size_t i = 0; i < bent.surface.size(); i += 4)
         bent.surface[i] = 190;  // towards +y where x is up
     settings_.lighting = true;
-    settings_.detail = false;
+    settings_.detail = FeatureUse::Off;
     const glm::dvec3 pointM = addGround({1, 0.001, 0.001}, flat, 12);
     const glm::dvec3 eyeM = pointM + glm::dvec3(20, 0, 0);
     const auto brightness = [&](const LayerPicture& picture, const glm::dvec3& sun) {

@@ -65,7 +65,7 @@ protected:
     NormalTiles() : planet_(testShape(), 6 + 6 * 16 + 6 * 256) {
         settings_.atmosphere = false;
         settings_.sea = false;
-        settings_.detail = false;
+        settings_.detail = FeatureUse::Off;
         settings_.surface = SurfaceColour::HeightRamp;
         settings_.ramp = {{0, {0.6f, 0.6f, 0.6f}}};
         settings_.light.normals.use = FeatureUse::On;
@@ -284,7 +284,7 @@ TEST_F(NormalTiles, OffOrTurnedDownThePictureIsTheOneWithoutThem) {
 // Detail makes light be worked out by pixel with and without them.
 TEST_F(NormalTiles, WhereNoTileIsAsFineAsTheMeshTheMeshIsDrawn) {
     addGround(wavesM);
-    settings_.detail = true;
+    settings_.detail = FeatureUse::On;
     const View view = viewFrom(testShape(), 8, 12, 2e5, -90, 20, 240, 240);
     lightFrom(view);
     const Picture mesh = drawn(view, fine(view), FeatureUse::Off);

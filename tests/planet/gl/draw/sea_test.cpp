@@ -15,7 +15,7 @@ class SeaTest : public GlTest {
 protected:
     SeaTest() {
         settings_.atmosphere = false;
-        settings_.detail = false;
+        settings_.detail = FeatureUse::Off;
         settings_.surface = SurfaceColour::HeightRamp;
         settings_.light.sea.use = FeatureUse::On;
         settings_.light.sea.waves = 0;
@@ -84,7 +84,7 @@ TEST_F(SeaTest, waterAboveTheSeaLevelKeepsTheImagesColour) {
     for (int i = 0; i < 64 * 32; ++i) water.insert(water.end(), {10, 40, 80});
     ASSERT_TRUE(planet.renderer().setColourImage(water, 64, 32));
     settings_.surface = SurfaceColour::Image;
-    settings_.detail = true;
+    settings_.detail = FeatureUse::On;
     const View view = viewFrom({}, 10, 10, 3000, -20, 0, 96, 64);
     const Picture with = drawPicture(planet.renderer(), view, planet.items(), settings_);
     settings_.light.sea.use = FeatureUse::Off;
@@ -240,7 +240,7 @@ TEST_F(SeaTest, LightIsFiniteWhereverItIsLookedAtFrom) {
     settings_.light.shadows.mapSizePx = 256;
     for (int i = 0; i < 24; ++i) {
         settings_.atmosphere = i % 2 == 0;
-        settings_.detail = i % 3 == 0;
+        settings_.detail = i % 3 == 0 ? FeatureUse::On : FeatureUse::Off;
         settings_.light.sea.waves = 2 * unit(random);
         settings_.light.sea.windMps = i % 4 == 0 ? 0 : 30 * unit(random);
         settings_.light.sea.clarityM = i % 5 == 0 ? 0.5 : 100 * unit(random);

@@ -220,7 +220,7 @@ TEST_F(Seams, WhollyMorphedChildrenLookLikeTheirParents) {
     RenderSettings settings;
     settings.surface = SurfaceColour::HeightRamp;
     settings.sunDirection = {1, 1.3, 0.4};
-    settings.detail = false;
+    settings.detail = FeatureUse::Off;
     const View view = viewFrom({}, 20, 15, 1.5e6, -70, 0, 400, 300);
     const Picture wanted = drawPicture(parents.renderer(), view, parents.items(), settings);
     const auto difference = [&](float morph) {

@@ -26,7 +26,7 @@ class ShadowsTest : public GlTest {
 protected:
     ShadowsTest() {
         settings_.atmosphere = false;
-        settings_.detail = false;
+        settings_.detail = FeatureUse::Off;
         settings_.surface = SurfaceColour::HeightRamp;
         settings_.light.shadows.use = FeatureUse::On;
         settings_.light.shadows.reachM = 6e5;
