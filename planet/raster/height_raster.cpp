@@ -1,5 +1,4 @@
 #include "planet/raster/height_raster.h"
-#include "planet/base/try.h"
 
 #include <xxhash.h>
 
@@ -10,6 +9,9 @@
 #include <cstring>
 #include <type_traits>
 #include <utility>
+
+#include "planet/base/cpu_clones.h"
+#include "planet/base/try.h"
 
 namespace planet {
 
@@ -64,6 +66,85 @@ HeightStatistics convertSamples(const HeightConversion& conversion, std::span<co
     return statistics;
 }
 
+// Does the same for the order of bytes of this machine and heights that are linear in the values, which the compiler
+// vectorises. Missing heights are NaN.
+template <class T>
+PLANET_ALWAYS_INLINE void convertLinear(const HeightConversion& conversion, const std::byte* native,
+                                        std::size_t count, float* __restrict out) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();  // equals no value
+    constexpr float most = std::numeric_limits<float>::max();
+    const double offsetM = conversion.offsetM;
+    const double metresPerUnit = conversion.metresPerUnit;
+    const double noData = conversion.noDataValue.value_or(none);
+    const auto noDataFloat = static_cast<float>(noData);
+    for (std::size_t i = 0; i < count; ++i) {
+        T value;
+        std::memcpy(&value, native + i * sizeof(T), sizeof(T));
+        const auto height = static_cast<float>(offsetM + metresPerUnit * static_cast<double>(value));
+        bool isMissing;
+        if constexpr (std::is_same_v<T, float>) {
+            isMissing = value == noDataFloat;
+        } else {
+            isMissing = static_cast<double>(value) == noData;
+        }
+        const bool isFinite = height >= -most && height <= most;
+        out[i] = isMissing || !isFinite ? std::numeric_limits<float>::quiet_NaN() : height;
+    }
+}
+
+// Fills in missing heights and returns the statistics.
+PLANET_CPU_CLONES HeightStatistics fillMissing(float fillM, std::size_t count, float* out) {
+    constexpr std::size_t lanes = 16;
+    std::array<float, lanes> lowest;
+    std::array<float, lanes> highest;
+    HeightStatistics statistics;
+    lowest.fill(statistics.minM);
+    highest.fill(statistics.maxM);
+    std::array<std::int32_t, lanes> missing{};
+    const auto take = [&](std::size_t i, std::size_t lane) {
+        const bool isMissing = std::isnan(out[i]);
+        const float height = isMissing ? fillM : out[i];
+        out[i] = height;
+        missing[lane] += isMissing ? 1 : 0;
+        // A NaN to fill in counts as no height.
+        lowest[lane] = height < lowest[lane] ? height : lowest[lane];
+        highest[lane] = height > highest[lane] ? height : highest[lane];
+    };
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        for (std::size_t lane = 0; lane < lanes; ++lane) take(i + lane, lane);
+    }
+    for (; i < count; ++i) take(i, 0);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        statistics.minM = std::min(statistics.minM, lowest[lane]);
+        statistics.maxM = std::max(statistics.maxM, highest[lane]);
+        statistics.missingCount += static_cast<std::uint64_t>(missing[lane]);
+    }
+    return statistics;
+}
+
+PLANET_CPU_CLONES void convertLinearSamples(const HeightConversion& conversion, const std::byte* native,
+                                            std::size_t count, float* out) {
+    switch (conversion.type) {
+        case SampleType::Uint8:
+            return convertLinear<std::uint8_t>(conversion, native, count, out);
+        case SampleType::Int8:
+            return convertLinear<std::int8_t>(conversion, native, count, out);
+        case SampleType::Uint16:
+            return convertLinear<std::uint16_t>(conversion, native, count, out);
+        case SampleType::Int16:
+            return convertLinear<std::int16_t>(conversion, native, count, out);
+        case SampleType::Uint32:
+            return convertLinear<std::uint32_t>(conversion, native, count, out);
+        case SampleType::Int32:
+            return convertLinear<std::int32_t>(conversion, native, count, out);
+        case SampleType::Float:
+            return convertLinear<float>(conversion, native, count, out);
+        case SampleType::Double:
+            return convertLinear<double>(conversion, native, count, out);
+    }
+}
+
 }  // namespace
 
 std::size_t bytesOf(SampleType type) {
@@ -80,6 +161,10 @@ void addTo(HeightStatistics& sum, const HeightStatistics& part) {
 HeightStatistics convertToMetres(const HeightConversion& conversion, std::span<const std::byte> native,
                                  std::span<float> out) {
     assert(native.size() == out.size() * bytesOf(conversion.type));
+    if (!conversion.swapBytes && !conversion.decodesSrgb) {
+        convertLinearSamples(conversion, native.data(), out.size(), out.data());
+        return fillMissing(conversion.fillM, out.size(), out.data());
+    }
     constexpr std::array<decltype(&convertSamples<float>), sampleTypeCount> converters = {
         convertSamples<std::uint8_t>, convertSamples<std::int8_t>,   convertSamples<std::uint16_t>,
         convertSamples<std::int16_t>, convertSamples<std::uint32_t>, convertSamples<std::int32_t>,

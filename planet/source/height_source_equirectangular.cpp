@@ -7,13 +7,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "planet/base/cpu_clones.h"
 #include "planet/base/try.h"
 #include "planet/raster/height_raster.h"
 #include "planet/raster/image_placement.h"
@@ -54,6 +57,9 @@ struct Projection {
           stretchAtEquator(width / (4.0 * filterCells)),
           stretchRows(static_cast<float>(
               std::max(1.0, rowsToPole(imagePlacement, imageHeight) / (2.0 * filterCells)))) {}
+
+    // A kernel with a larger stretch in longitude would overlap itself, and covers the whole row.
+    double wholeRow() const { return width / 4.0; }
 };
 
 // The taps of every sample of a piece: rows and columns of the endless image.
@@ -87,43 +93,56 @@ int wrapped(int value, int period) {
     return remainder < 0 ? remainder + period : remainder;
 }
 
-void tapsOfRow(const Projection& projection, const GeographicRow& places, std::size_t begin,
-               PieceTaps& taps) {
-    const double width = projection.width;
+// Fills in the taps of places whose kernel is narrower than a row of the image. The compiler vectorises the loop only with
+// pointers that are parameters.
+PLANET_CPU_CLONES void fillTaps(const Projection& projection, const double* __restrict longitudes,
+                                const double* __restrict latitudes, const double* __restrict rings, int count,
+                                int* __restrict firstColumns, int* __restrict firstRows,
+                                int* __restrict groups, float* __restrict columns, float* __restrict rows,
+                                float* __restrict stretches) {
+    const double columnsPerRad = projection.columnsPerRad;
+    const double rowsPerRad = projection.rowsPerRad;
+    const double stretchAtEquator = projection.stretchAtEquator;
+    const double mostStretch = projection.wholeRow();
     const double middleColumn = projection.placement.zeroColumn;
     const double middleRow = projection.height / 2.0 - 0.5;
-    const double wholeRow = width / 4;  // a kernel with a larger stretch would overlap itself
-    const int wholeRowGroups = (projection.width + 3) / 4;
     const double reachRows = 2.0 * projection.stretchRows;
     // The bias makes truncation to an int a floor.
     const int columnBias = 2 * projection.width + 4;
     const int rowBias = 2 * projection.height + 4;
-    const auto count = static_cast<int>(places.ring.size());
-    const double* const longitudes = places.longitudeRad.data();
-    const double* const latitudes = places.latitudeRad.data();
-    const double* const rings = places.ring.data();
-    int* const firstColumns = taps.firstColumn.data() + begin;
-    int* const firstRows = taps.firstRow.data() + begin;
-    int* const groups = taps.columnGroups.data() + begin;
-    float* const columns = taps.column.data() + begin;
-    float* const rows = taps.row.data() + begin;
-    float* const stretches = taps.stretchColumns.data() + begin;
     for (int i = 0; i < count; ++i) {
-        const double column = middleColumn + longitudes[i] * projection.columnsPerRad;
-        const double row = middleRow - latitudes[i] * projection.rowsPerRad;
-        const double wanted = projection.stretchAtEquator / (rings[i] + 1e-30);
-        const bool whole = wanted > wholeRow;
+        const double column = middleColumn + longitudes[i] * columnsPerRad;
+        const double row = middleRow - latitudes[i] * rowsPerRad;
+        const double wanted = stretchAtEquator / (rings[i] + 1e-30);
         const double atLeast1 = wanted < 1 ? 1.0 : wanted;
-        const double stretch = whole ? wholeRow : atLeast1;
+        const double stretch = wanted > mostStretch ? mostStretch : atLeast1;
         const int below = static_cast<int>(stretch);
         const int firstColumn = static_cast<int>(column - 2 * stretch + columnBias) - columnBias + 1;
         const int firstRow = static_cast<int>(row - reachRows + rowBias) - rowBias + 1;
-        firstColumns[i] = whole ? 0 : firstColumn;
+        firstColumns[i] = firstColumn;
         firstRows[i] = firstRow;
-        groups[i] = whole ? wholeRowGroups : below + (stretch > below ? 1 : 0);
         columns[i] = static_cast<float>(column - firstColumn);
         rows[i] = static_cast<float>(row - firstRow);
-        stretches[i] = whole ? 0.0f : static_cast<float>(stretch);
+        stretches[i] = static_cast<float>(stretch);
+        groups[i] = below + (stretch > below ? 1 : 0);
+    }
+}
+
+void tapsOfRow(const Projection& projection, const GeographicRow& places, std::size_t begin,
+               PieceTaps& taps) {
+    const std::size_t count = places.ring.size();
+    const std::span groups = std::span(taps.columnGroups).subspan(begin, count);
+    fillTaps(projection, places.longitudeRad.data(), places.latitudeRad.data(), places.ring.data(),
+             static_cast<int>(count), taps.firstColumn.data() + begin, taps.firstRow.data() + begin,
+             groups.data(), taps.column.data() + begin, taps.row.data() + begin,
+             taps.stretchColumns.data() + begin);
+    if (std::ranges::max(groups) < projection.wholeRow()) return;
+    // Near a pole, the kernel covers the whole row.
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(projection.stretchAtEquator / (places.ring[i] + 1e-30) > projection.wholeRow())) continue;
+        taps.firstColumn[begin + i] = 0;
+        taps.stretchColumns[begin + i] = 0;
+        groups[i] = (projection.width + 3) / 4;
     }
 }
 
@@ -133,34 +152,53 @@ PieceTaps tapsOfPiece(const Projection& projection, const SampleTile& piece) {
     std::vector<double> scratch(3 * columns);
     const std::span places(scratch);
     const GeographicRow row{places.first(columns), places.subspan(columns, columns), places.last(columns)};
+    const GeographicColumns grid(piece.face, piece.faceCells, piece.firstColumn, piece.columns);
     for (int r = 0; r < piece.rows; ++r) {
-        geographicRow(piece.face, piece.faceCells, piece.firstColumn, piece.firstRow + r, row);
+        grid.placesOfRow(piece.firstRow + r, row);
         tapsOfRow(projection, row, static_cast<std::size_t>(r) * columns, taps);
     }
     return taps;
+}
+
+// The ends of some taps' ranges of columns and rows.
+struct TapRange {
+    int firstColumn = std::numeric_limits<int>::max();
+    int endColumn = std::numeric_limits<int>::min();
+    int firstRow = std::numeric_limits<int>::max();
+    int lastFirstRow = std::numeric_limits<int>::min();
+};
+
+// Returns the range of all taps. Columns below `least` are moved by one turn to the east.
+PLANET_CPU_CLONES TapRange rangeOf(const int* firstColumns, const int* firstRows, const int* groups,
+                                   std::size_t count, int least, int turn) {
+    TapRange range;
+    for (std::size_t i = 0; i < count; ++i) {
+        const int first = firstColumns[i] < least ? firstColumns[i] + turn : firstColumns[i];
+        range.firstColumn = std::min(range.firstColumn, first);
+        range.endColumn = std::max(range.endColumn, first + 4 * groups[i]);
+        range.firstRow = std::min(range.firstRow, firstRows[i]);
+        range.lastFirstRow = std::max(range.lastFirstRow, firstRows[i]);
+    }
+    return range;
 }
 
 // Returns the smallest region that contains all taps. Moves columns west of the middle by one turn to the
 // east if that makes the region narrower, across the date line.
 Region regionOf(const Projection& projection, PieceTaps& taps) {
     const int half = static_cast<int>(projection.placement.zeroColumn + 0.5);
-    int low = taps.firstColumn[0], high = low, lowMoved = low + projection.width, highMoved = 0;
-    int top = taps.firstRow[0], bottom = top;
-    for (std::size_t i = 0; i < taps.firstColumn.size(); ++i) {
-        const int first = taps.firstColumn[i];
-        const int moved = first < half ? first + projection.width : first;
-        const int count = 4 * taps.columnGroups[i];
-        low = std::min(low, first);
-        high = std::max(high, first + count);
-        lowMoved = std::min(lowMoved, moved);
-        highMoved = std::max(highMoved, moved + count);
-        top = std::min(top, taps.firstRow[i]);
-        bottom = std::max(bottom, taps.firstRow[i]);
-    }
-    bottom += tapCount(projection.stretchRows);
-    if (highMoved - lowMoved >= high - low) return {low, top, high - low, bottom - top};
+    const auto rangeFrom = [&](int least) {
+        return rangeOf(taps.firstColumn.data(), taps.firstRow.data(), taps.columnGroups.data(),
+                       taps.firstColumn.size(), least, projection.width);
+    };
+    const TapRange range = rangeFrom(std::numeric_limits<int>::min());
+    const int columns = range.endColumn - range.firstColumn;
+    const int rows = range.lastFirstRow + tapCount(projection.stretchRows) - range.firstRow;
+    // Taps on one side of the middle stay there.
+    const TapRange moved = range.firstColumn < half && range.endColumn > half ? rangeFrom(half) : range;
+    const int movedColumns = moved.endColumn - moved.firstColumn;
+    if (movedColumns >= columns) return {range.firstColumn, range.firstRow, columns, rows};
     for (int& first : taps.firstColumn) first = first < half ? first + projection.width : first;
-    return {lowMoved, top, highMoved - lowMoved, bottom - top};
+    return {moved.firstColumn, range.firstRow, movedColumns, rows};
 }
 
 // Reads columns, with wrapping, of rows of the image.
@@ -194,6 +232,115 @@ Result<void> readRegion(const HeightRaster& image, const ImagePlacement& placeme
     return {};
 }
 
+constexpr int fewTaps = 16;  // along an axis
+
+// The taps of a piece and the part of them that lies in a band.
+struct BandTaps {
+    const PieceTaps& taps;
+    float stretchRows;
+    Region band;
+    const float* samples;  // of the band
+
+    int rowTaps() const { return tapCount(stretchRows); }
+    bool areFourByFour(std::size_t sample) const {
+        return stretchRows == 1 && taps.stretchColumns[sample] == 1 && haveAllRows(sample);
+    }
+    // Whether they are more, but few enough for local memory.
+    bool areFew(std::size_t sample) const {
+        return taps.stretchColumns[sample] != 0 && 4 * taps.columnGroups[sample] <= fewTaps &&
+               rowTaps() <= fewTaps && haveAllRows(sample) && !areFourByFour(sample);
+    }
+    const float* firstTap(std::size_t sample) const {
+        return samples + (taps.firstRow[sample] - band.row) * std::ptrdiff_t{band.columns} +
+               (taps.firstColumn[sample] - band.column);
+    }
+
+private:
+    bool haveAllRows(std::size_t sample) const {
+        const int firstRow = taps.firstRow[sample] - band.row;
+        return firstRow >= 0 && firstRow + rowTaps() <= band.rows;
+    }
+};
+
+// Adds the taps of samples [begin, end), which are four by four each, to their four sums.
+PLANET_CPU_CLONES void addFourByFour(const BandTaps& band, std::size_t begin, std::size_t end, float* lanes) {
+    const std::ptrdiff_t stride = band.band.columns;
+    for (std::size_t i = begin; i < end; ++i) {
+        const float* const from = band.firstTap(i);
+        const Float4 across = catmullRomWeights(band.taps.column[i] - 1);
+        const Float4 down = catmullRomWeights(band.taps.row[i] - 1);
+        Float4 sum = loadFloat4(lanes + 4 * i);
+        sum += down[0] * (across * loadFloat4(from));
+        sum += down[1] * (across * loadFloat4(from + stride));
+        sum += down[2] * (across * loadFloat4(from + 2 * stride));
+        sum += down[3] * (across * loadFloat4(from + 3 * stride));
+        storeFloat4(lanes + 4 * i, sum);
+    }
+}
+
+constexpr std::size_t batchSize = 16;  // samples whose weights are computed at once
+
+// Computes the weights of `taps` taps of each of up to batchSize samples, one sample after the other. The same as
+// kernelWeights, with the samples as the inner loop: a sum over the taps of one sample is a chain of additions.
+PLANET_ALWAYS_INLINE void batchWeights(const float* positions, const float* stretches, std::size_t count,
+                                       std::size_t taps, float* weights) {
+    std::array<float, batchSize> position{};
+    std::array<float, batchSize> perTap{};
+    std::array<float, batchSize> sum{};
+    std::array<std::array<float, batchSize>, fewTaps> byTap;
+    for (std::size_t s = 0; s < count; ++s) position[s] = positions[s];
+    for (std::size_t s = 0; s < count; ++s) perTap[s] = 1 / stretches[s];
+    for (std::size_t k = 0; k < taps; ++k) {
+        const auto tap = static_cast<float>(static_cast<int>(k));
+        for (std::size_t s = 0; s < batchSize; ++s) {
+            const float d = std::abs((tap - position[s]) * perTap[s]);
+            const float near = (1.5f * d - 2.5f) * d * d + 1;
+            const float far = ((-0.5f * d + 2.5f) * d - 4) * d + 2;
+            const float within = d < 1 ? near : far;
+            byTap[k][s] = d >= 2 ? 0.0f : within;
+            sum[s] += byTap[k][s];
+        }
+    }
+    for (std::size_t k = 0; k < taps; ++k) {
+        for (std::size_t s = 0; s < batchSize; ++s) byTap[k][s] /= sum[s];
+    }
+    for (std::size_t s = 0; s < count; ++s) {
+        float* const own = weights + s * taps;
+        for (std::size_t k = 0; k < taps; ++k) own[k] = byTap[k][s];
+        if (stretches[s] == 1) storeFloat4(own, catmullRomWeights(positions[s] - 1));
+    }
+}
+
+// Does the same as addFourByFour for samples with few taps, which have as many along rows as each other.
+PLANET_CPU_CLONES void addFew(const BandTaps& band, std::size_t begin, std::size_t end, float* lanes) {
+    const std::ptrdiff_t stride = band.band.columns;
+    const auto rowTaps = static_cast<std::size_t>(band.rowTaps());
+    const auto columnTaps = static_cast<std::size_t>(4 * band.taps.columnGroups[begin]);
+    std::array<float, batchSize * fewTaps> columnWeights;
+    std::array<float, batchSize * fewTaps> rowWeights;
+    std::array<float, batchSize> stretchRows;
+    stretchRows.fill(band.stretchRows);
+    for (std::size_t first = begin; first < end; first += batchSize) {
+        const std::size_t count = std::min(batchSize, end - first);
+        batchWeights(&band.taps.column[first], &band.taps.stretchColumns[first], count, columnTaps,
+                     columnWeights.data());
+        batchWeights(&band.taps.row[first], stretchRows.data(), count, rowTaps, rowWeights.data());
+        for (std::size_t s = 0; s < count; ++s) {
+            const float* const across = columnWeights.data() + s * columnTaps;
+            const float* const down = rowWeights.data() + s * rowTaps;
+            const float* from = band.firstTap(first + s);
+            Float4 sum = loadFloat4(lanes + 4 * (first + s));
+            for (std::size_t row = 0; row < rowTaps; ++row, from += stride) {
+                Float4 rowSum = loadFloat4(across) * loadFloat4(from);
+                for (std::size_t k = 4; k < columnTaps; k += 4)
+                    rowSum += loadFloat4(across + k) * loadFloat4(from + k);
+                sum += down[row] * rowSum;
+            }
+            storeFloat4(lanes + 4 * (first + s), sum);
+        }
+    }
+}
+
 // Filters the samples of a piece from regions of the image, one band of rows after another.
 class PieceFilter {
 public:
@@ -202,41 +349,40 @@ public:
         rowWeights_.resize(static_cast<std::size_t>(tapCount(stretchRows_)));
     }
 
-    // Adds the rows of a band to a sample; bands come in ascending order.
-    Float4 add(Float4 sum, std::size_t sample, const Region& band, const float* samples) {
-        const int firstRow = taps_.firstRow[sample] - band.row;
-        const float* const from = samples + (taps_.firstColumn[sample] - band.column);
-        const bool unstretched = stretchRows_ == 1 && taps_.stretchColumns[sample] == 1;
-        if (unstretched && firstRow >= 0 && firstRow + 4 <= band.rows) {
-            return addFourByFour(sum, sample, from + firstRow * std::ptrdiff_t{band.columns}, band.columns);
+    // Adds the rows of a band to the four sums of each sample; bands come in ascending order.
+    void add(const Region& region, const float* samples, std::span<float> lanes) {
+        const BandTaps band{taps_, stretchRows_, region, samples};
+        const std::size_t count = taps_.firstColumn.size();
+        for (std::size_t i = 0; i < count;) {
+            const std::size_t begin = i;
+            while (i < count && band.areFourByFour(i)) ++i;
+            if (i > begin) addFourByFour(band, begin, i, lanes.data());
+            const std::size_t few = i;
+            while (i < count && band.areFew(i) && taps_.columnGroups[i] == taps_.columnGroups[few]) ++i;
+            if (i > few) addFew(band, few, i, lanes.data());
+            if (i > begin) continue;
+            addMany(band, i, lanes.data() + 4 * i);
+            ++i;
         }
-        return addStretched(sum, sample, firstRow, from, band);
     }
 
 private:
-    Float4 addFourByFour(Float4 sum, std::size_t sample, const float* from, std::ptrdiff_t stride) const {
-        const Float4 across = catmullRomWeights(taps_.column[sample] - 1);
-        const Float4 down = catmullRomWeights(taps_.row[sample] - 1);
-        sum += down[0] * (across * loadFloat4(from));
-        sum += down[1] * (across * loadFloat4(from + stride));
-        sum += down[2] * (across * loadFloat4(from + 2 * stride));
-        sum += down[3] * (across * loadFloat4(from + 3 * stride));
-        return sum;
-    }
-
-    Float4 addStretched(Float4 sum, std::size_t sample, int firstRow, const float* from, const Region& band) {
+    void addMany(const BandTaps& band, std::size_t sample, float* lanes) {
         setWeights(sample);
+        const int firstRow = taps_.firstRow[sample] - band.band.row;
         const int begin = std::max(0, -firstRow);
-        const int end = std::min(static_cast<int>(rowWeights_.size()), band.rows - firstRow);
+        const int end = std::min(static_cast<int>(rowWeights_.size()), band.band.rows - firstRow);
+        const float* const from = band.firstTap(sample);
+        Float4 sum = loadFloat4(lanes);
         for (int tap = begin; tap < end; ++tap) {
-            const float* const row = from + (firstRow + tap) * std::ptrdiff_t{band.columns};
+            const float* const row = from + tap * std::ptrdiff_t{band.band.columns};
             Float4 rowSum{};
             for (std::size_t k = 0; k < columnWeights_.size(); k += 4) {
                 rowSum += loadFloat4(columnWeights_.data() + k) * loadFloat4(row + k);
             }
             sum += rowWeights_[static_cast<std::size_t>(tap)] * rowSum;
         }
-        return sum;
+        storeFloat4(lanes, sum);
     }
 
     void setWeights(std::size_t sample) {
@@ -262,9 +408,18 @@ struct Equirectangular {
     ImagePlacement placement;
     float minM = 0;
     float maxM = 0;
-
-    float finished(Float4 sum) const { return std::clamp(sumOfLanes(sum), minM, maxM); }
 };
+
+// Turns the four sums of each sample into its height.
+PLANET_CPU_CLONES void finishRow(const float* __restrict lanes, std::size_t count, float minM, float maxM,
+                                 float* __restrict out) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float* const sum = lanes + 4 * i;
+        const float height = (sum[0] + sum[2]) + (sum[1] + sum[3]);  // sumOfLanes
+        const float atLeast = height < minM ? minM : height;
+        out[i] = maxM < atLeast ? maxM : atLeast;
+    }
+}
 
 // The taps and the projection of a piece's samples, for an image of a certain size.
 struct PiecePlace {
@@ -311,15 +466,11 @@ Result<void> samplePiece(const Equirectangular& source, const SampleTile& piece,
         const Region band{region.column, region.row + done, region.columns,
                           std::min(bandRows, region.rows - done)};
         TRY(readRegion(source.image, source.placement, band, samples));
-        for (std::size_t i = 0; i < taps.firstColumn.size(); ++i) {
-            float* const sum = lanes.data() + 4 * i;
-            storeFloat4(sum, filter.add(loadFloat4(sum), i, band, samples.data()));
-        }
+        filter.add(band, samples.data(), lanes);
     }
     const auto columns = static_cast<std::size_t>(piece.columns);
-    for (std::size_t i = 0; i < taps.firstColumn.size(); ++i) {
-        out[i / columns * stride + i % columns] = source.finished(loadFloat4(lanes.data() + 4 * i));
-    }
+    for (std::size_t row = 0; row < static_cast<std::size_t>(piece.rows); ++row)
+        finishRow(lanes.data() + 4 * row * columns, columns, source.minM, source.maxM, out + row * stride);
     return {};
 }
 

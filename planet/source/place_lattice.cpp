@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "planet/base/cpu_clones.h"
 #include "planet/source/height_geographic.h"
 #include "planet/sphere/planet_shape.h"
 
@@ -21,6 +22,15 @@ constexpr int leastPlacesApart = 4;  // places of the filter's grid between poin
 // The spacing of a lattice is this share of the square root of samplesPerRad, in samples: most projections bend by less
 // than 0.02 samples from point to point then, and what a parabola leaves of that is a small part.
 constexpr double spacingShare = 0.1;
+
+// Interpolates between three rows that follow one another.
+PLANET_CPU_CLONES void interpolateRow(const double* rows, std::size_t count,
+                                      const std::array<double, 3>& weights, double* __restrict out) {
+    const double* const middle = rows + count;
+    const double* const last = middle + count;
+    const auto [first, second, third] = weights;
+    for (std::size_t i = 0; i < count; ++i) out[i] = first * rows[i] + second * middle[i] + third * last[i];
+}
 
 // The values of a function at the points of a lattice that surround a piece. Two by two cells are a group: parabolas go
 // through its nine points, which also show how much the function bends over it.
@@ -44,11 +54,11 @@ public:
         std::vector<double> longitudes(width_ * height);
         std::vector<double> latitudes(width_ * height);
         std::vector<double> ring(width_);
+        const GeographicColumns grid(piece.face, cells, 2 * firstGroupColumn_, static_cast<int>(width_));
         for (std::size_t row = 0; row < height; ++row) {
-            geographicRow(piece.face, cells, 2 * firstGroupColumn_,
-                          2 * firstGroupRow_ + static_cast<int>(row),
-                          {std::span(longitudes).subspan(row * width_, width_),
-                           std::span(latitudes).subspan(row * width_, width_), ring});
+            grid.placesOfRow(2 * firstGroupRow_ + static_cast<int>(row),
+                             {std::span(longitudes).subspan(row * width_, width_),
+                              std::span(latitudes).subspan(row * width_, width_), ring});
         }
         for (std::vector<double>& values : values_) values.resize(width_ * height);
         function(longitudes, latitudes, values_[0], values_[1]);
@@ -69,25 +79,40 @@ public:
                static_cast<std::size_t>((column >> groupLog2_) - firstGroupColumn_);
     }
 
-    // Interpolates both values at a place of the face's grid between the points of its group. On a point of the lattice,
-    // they are that point's values.
-    std::array<double, 2> at(int column, int row) const {
-        const int perGroup = 1 << groupLog2_;
-        const auto left = static_cast<std::size_t>(2 * ((column >> groupLog2_) - firstGroupColumn_));
-        const auto top = static_cast<std::size_t>(2 * ((row >> groupLog2_) - firstGroupRow_));
-        const auto share = [&](int along) { return static_cast<double>(along & (perGroup - 1)) / perGroup; };
-        const std::array<double, 3> across = weightsAt(share(column));
-        const std::array<double, 3> down = weightsAt(share(row));
-        std::array<double, 2> found{};
-        for (std::size_t value = 0; value < 2; ++value) {
-            const double* from = &values_[value][top * width_ + left];
-            for (std::size_t j = 0; j < 3; ++j, from += width_)
-                found[value] += down[j] * (across[0] * from[0] + across[1] * from[1] + across[2] * from[2]);
+    // Interpolates a value, 0 or 1, at all places of the piece, row by row, between the points of their groups. On a point
+    // of the lattice, it is that point's value. Parabolas go along the rows of the lattice first, because many rows of
+    // the piece lie between two of those.
+    void interpolate(std::size_t value, const SampleTile& piece, std::span<double> out) const {
+        const auto columns = static_cast<std::size_t>(piece.columns);
+        const std::size_t latticeRows = 2 * groupRows_ + 1;
+        std::vector<double> across(latticeRows * columns);
+        for (std::size_t column = 0; column < columns; ++column) {
+            const int onFace = piece.firstColumn + static_cast<int>(column);
+            const std::array<double, 3> weights = weightsAt(shareOf(onFace));
+            const double* from = &values_[value][2 * groupAlong(onFace, firstGroupColumn_, groupColumns_)];
+            for (std::size_t row = 0; row < latticeRows; ++row, from += width_)
+                across[row * columns + column] =
+                    weights[0] * from[0] + weights[1] * from[1] + weights[2] * from[2];
         }
-        return found;
+        for (std::size_t row = 0; row < static_cast<std::size_t>(piece.rows); ++row) {
+            const int onFace = piece.firstRow + static_cast<int>(row);
+            const std::size_t top = 2 * groupAlong(onFace, firstGroupRow_, groupRows_);
+            interpolateRow(&across[top * columns], columns, weightsAt(shareOf(onFace)), &out[row * columns]);
+        }
     }
 
 private:
+    // Returns the group of a column or row of the face's grid. The far edge of the face belongs to the last one.
+    std::size_t groupAlong(int along, int firstGroup, std::size_t groups) const {
+        return std::min(static_cast<std::size_t>((along >> groupLog2_) - firstGroup), groups - 1);
+    }
+
+    // Returns where a column or row of the face's grid lies in its group, [0, 1).
+    double shareOf(int along) const {
+        const int perGroup = 1 << groupLog2_;
+        return static_cast<double>(along & (perGroup - 1)) / perGroup;
+    }
+
     // Returns the weights of a parabola's points at 0, 1/2 and 1.
     static std::array<double, 3> weightsAt(double t) {
         return {(2 * t - 1) * (t - 1), 4 * t * (1 - t), t * (2 * t - 1)};
@@ -157,6 +182,11 @@ void overPiece(const PiecePlaces& places, std::span<const std::size_t> wanted, i
         return atPlaces(places, wanted, function, first, second);
     const Lattice lattice(*tile, latticeCells, function);
     const std::vector<std::uint8_t> even = lattice.evenGroups(mostBend);
+    std::vector<double> interpolated(2 * first.size());
+    const std::span firsts = std::span(interpolated).first(first.size());
+    const std::span seconds = std::span(interpolated).last(first.size());
+    lattice.interpolate(0, *tile, firsts);
+    lattice.interpolate(1, *tile, seconds);
     const auto width = static_cast<std::size_t>(tile->columns);
     std::vector<std::size_t> single;
     for (const std::size_t place : wanted) {
@@ -168,9 +198,8 @@ void overPiece(const PiecePlaces& places, std::span<const std::size_t> wanted, i
             single.push_back(place);
             continue;
         }
-        const auto [one, other] = lattice.at(column, row);
-        first[place] = one;
-        second[place] = other;
+        first[place] = firsts[place];
+        second[place] = seconds[place];
     }
     atPlaces(places, single, function, first, second);
 }

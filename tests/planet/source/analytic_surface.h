@@ -38,8 +38,9 @@ inline Probe probeAt(double longitudeDeg, double latitudeDeg, int faceCells = fi
     Probe probe{{point.face, faceCells, static_cast<int>(std::lround((point.u + 1) / 2 * faceCells)),
                  static_cast<int>(std::lround((point.v + 1) / 2 * faceCells)), 1, 1}};
     std::array<double, 3> place{};
-    geographicRow(point.face, faceCells, probe.tile.firstColumn, probe.tile.firstRow,
-                  {std::span(place).first(1), std::span(place).subspan(1, 1), std::span(place).last(1)});
+    GeographicColumns(point.face, faceCells, probe.tile.firstColumn, 1)
+        .placesOfRow(probe.tile.firstRow,
+                     {std::span(place).first(1), std::span(place).subspan(1, 1), std::span(place).last(1)});
     probe.longitudeDeg = place[0] / radPerDeg;
     probe.latitudeDeg = place[1] / radPerDeg;
     return probe;

@@ -74,8 +74,9 @@ TEST(HeightSource, GeographicRowsMatchTheLibrarysOwnAngles) {
     const std::span all(values);
     const GeographicRow row{all.first(cells + 1), all.subspan(cells + 1, cells + 1), all.last(cells + 1)};
     for (const Face face : allFaces) {
+        const GeographicColumns columns(face, cells, 0, cells + 1);
         for (int j = 0; j <= cells; ++j) {
-            geographicRow(face, cells, 0, j, row);
+            columns.placesOfRow(j, row);
             for (int i = 0; i <= cells; ++i) {
                 const Geographic exact = geographicFromDirection(directionAt(face, cells, i, j));
                 const auto at = static_cast<std::size_t>(i);
