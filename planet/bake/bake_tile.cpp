@@ -57,6 +57,17 @@ BakedChunk cutLeaf(const BakeContext& bake, const ChunkId& id, const SampleTile&
     return leaf;
 }
 
+// Returns the δg of a chunk of a unit. positions: those of the unit's samples.
+double deltaGOf(const PlanetShape& shape, const ChunkId& id, int leafLevel, const SampleTile& tile,
+                const GeometricErrorScratch& positions) {
+    const SampleTile square = tileOf(shape, id, leafLevel);
+    const auto cells = static_cast<std::size_t>(2 * chunkCells(shape));
+    const auto stride = static_cast<std::size_t>(square.columns - 1) / cells;
+    return geometricErrorOnGridM(positions, static_cast<std::size_t>(tile.columns),
+                                 {static_cast<std::size_t>(square.firstColumn - tile.firstColumn),
+                                  static_cast<std::size_t>(square.firstRow - tile.firstRow), stride, cells});
+}
+
 BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, int leafLevel, const SampleTile& tile,
                        BakeScratch& scratch, std::vector<std::byte>& blocks) {
     if (id.level == leafLevel) return cutLeaf(bake, id, tile, scratch.steps);
@@ -67,7 +78,8 @@ BakedChunk bakeSubtree(const BakeContext& bake, const ChunkId& id, int leafLevel
     }
     const bool aboveLeaves = id.level + 1 == leafLevel;
     const double finestDistanceM = aboveLeaves ? 0 : scratch.distances.of(id);
-    return mergeChildren(bake, id, children, finestDistanceM, provisionalOrigin, scratch, blocks);
+    const double deltaGM = deltaGOf(bake.shape, id, leafLevel, tile, scratch.geometry);
+    return mergeChildren(bake, id, children, {deltaGM, finestDistanceM}, provisionalOrigin, scratch, blocks);
 }
 
 }  // namespace
@@ -153,7 +165,7 @@ std::vector<double> measureUnit(const PlanetShape& shape, const TreeUnit& unit, 
 }
 
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
-                         std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
+                         std::span<const BakedChunk, quadrantCount> children, const ChunkErrors& errors,
                          std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks) {
     const auto refined = joinQuarters(bake.shape, children, scratch.refined);
     BakedChunk chunk;
@@ -174,11 +186,12 @@ BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
         childrenDeltaM = std::max(childrenDeltaM, child.entry.deltaCM);
         childrenTightM = std::max(childrenTightM, child.entry.deltaTightM);
     }
-    const double deltaG = geometricErrorM(bake.shape, parent, refined, scratch.geometry);
-    chunk.entry.deltaCM = roundedUp(deltaG + childrenDeltaM);
+    const double deltaGM =
+        errors.deltaGM ? *errors.deltaGM : geometricErrorM(bake.shape, parent, refined, scratch.geometry);
+    chunk.entry.deltaCM = roundedUp(deltaGM + childrenDeltaM);
     // The samples of a leaf child lie off the parent's surface by at most δg. For other children, δg is not
     // larger than the distance from the samples below them.
-    const double ownM = aboveLeaves ? std::max(deltaG, finestDistanceM) : finestDistanceM;
+    const double ownM = aboveLeaves ? std::max(deltaGM, errors.finestDistanceM) : errors.finestDistanceM;
     chunk.entry.deltaTightM = tightMetric(ownM, childrenTightM, chunk.entry.deltaCM);
 
     const std::size_t start = blocks.size();

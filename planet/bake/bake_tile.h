@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -69,14 +70,20 @@ int bakeThreads(const BakeSettings& settings);
 Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeScratch& scratch);
 
 // Measures the largest distances of a unit's finest samples from the chunks above it, as BakedTile::offAboveM has them,
-// and those within it, in scratch.distances. scratch.steps: the samples of its square on the grid of its leaves.
+// and those within it, in scratch.distances. scratch.steps: the samples of its square on the grid of its leaves, whose
+// positions are left in scratch.geometry.
 std::vector<double> measureUnit(const PlanetShape& shape, const TreeUnit& unit, BakeScratch& scratch);
 
+// What is known of a chunk's errors before its children are merged, metres.
+struct ChunkErrors {
+    std::optional<double> deltaGM;  // measured from the children's heights if it is not known
+    double finestDistanceM = 0;     // from the finest samples two or more levels below it
+};
+
 // Appends the block of four children and returns their parent, made of every other row and column. Locations
-// in the file count from origin, the location of the first block. finestDistanceM: the parent's distance from
-// the finest samples two or more levels below it; those of its leaves are measured here.
+// in the file count from origin, the location of the first block.
 BakedChunk mergeChildren(const BakeContext& bake, const ChunkId& parent,
-                         std::span<const BakedChunk, quadrantCount> children, double finestDistanceM,
+                         std::span<const BakedChunk, quadrantCount> children, const ChunkErrors& errors,
                          std::uint64_t origin, BakeScratch& scratch, std::vector<std::byte>& blocks);
 
 }  // namespace planet

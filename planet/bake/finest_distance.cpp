@@ -1,5 +1,4 @@
 #include "planet/bake/finest_distance.h"
-#include "planet/base/try.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
+
+#include "planet/base/cpu_clones.h"
+#include "planet/base/try.h"
 
 namespace planet {
 
@@ -22,48 +24,71 @@ struct MeasuredTile {
         const std::size_t index = row * side + column;
         return {grid.x[index], grid.y[index], grid.z[index]};
     }
-
-    // Returns the largest squared distance of samples `first` to `last` of a row from a line that passes
-    // through `from` at column 0 and moves by `step` per column. Columns count from the cell's west edge.
-    double largestSquared(std::size_t start, std::size_t first, std::size_t last, const glm::dvec3& from,
-                          const glm::dvec3& step) const {
-        const double* const x = grid.x.data() + start;
-        const double* const y = grid.y.data() + start;
-        const double* const z = grid.z.data() + start;
-        double largest = 0;
-        for (std::size_t i = first; i <= last; ++i) {
-            const auto along = static_cast<double>(i);
-            const double dx = x[i] - (from.x + along * step.x);
-            const double dy = y[i] - (from.y + along * step.y);
-            const double dz = z[i] - (from.z + along * step.z);
-            largest = std::max(largest, dx * dx + dy * dy + dz * dz);
-        }
-        return largest;
-    }
-
-    // Returns the largest squared distance of all samples on a cell of a coarser level, including its edges,
-    // from the cell's two triangles.
-    double largestSquaredOnCell(std::size_t column, std::size_t row, std::size_t cells) const {
-        const glm::dvec3 southWest = at(column, row);
-        const glm::dvec3 southEast = at(column + cells, row);
-        const glm::dvec3 northWest = at(column, row + cells);
-        const glm::dvec3 northEast = at(column + cells, row + cells);
-        const double share = 1 / static_cast<double>(cells);
-        const glm::dvec3 alongSouth = (southEast - southWest) * share;
-        const glm::dvec3 alongNorth = (northEast - northWest) * share;
-        const glm::dvec3 upWest = (northWest - southWest) * share;
-        const glm::dvec3 upEast = (northEast - southEast) * share;
-        double largest = 0;
-        for (std::size_t j = 0; j <= cells; ++j) {
-            const auto up = static_cast<double>(j);
-            const std::size_t start = (row + j) * side + column;
-            const double west = largestSquared(start, 0, j, southWest + up * upWest, alongNorth);
-            const double east = largestSquared(start, j, cells, southWest + up * upEast, alongSouth);
-            largest = std::max({largest, west, east});
-        }
-        return largest;
-    }
 };
+
+// A line that passes through `from` at column 0 and moves by `step` per column. Columns count from the cell's west edge.
+struct Line {
+    glm::dvec3 from;
+    glm::dvec3 step;
+};
+
+PLANET_ALWAYS_INLINE double squaredFrom(const Line& line, int column, const double* x, const double* y,
+                                        const double* z) {
+    const double along = column;
+    const double dx = x[column] - (line.from.x + along * line.step.x);
+    const double dy = y[column] - (line.from.y + along * line.step.y);
+    const double dz = z[column] - (line.from.z + along * line.step.z);
+    return dx * dx + dy * dy + dz * dz;
+}
+
+// Returns the largest squared distance of all samples on a cell of a coarser level, including its edges,
+// from the cell's two triangles. Samples on the diagonal are compared with both. cells: a multiple of 4.
+PLANET_ALWAYS_INLINE double largestSquaredOnCell(const MeasuredTile& tile, std::size_t column,
+                                                 std::size_t row, std::size_t cells) {
+    const glm::dvec3 southWest = tile.at(column, row);
+    const glm::dvec3 southEast = tile.at(column + cells, row);
+    const glm::dvec3 northWest = tile.at(column, row + cells);
+    const glm::dvec3 northEast = tile.at(column + cells, row + cells);
+    const double share = 1 / static_cast<double>(cells);
+    const glm::dvec3 alongSouth = (southEast - southWest) * share;
+    const glm::dvec3 alongNorth = (northEast - northWest) * share;
+    const glm::dvec3 upWest = (northWest - southWest) * share;
+    const glm::dvec3 upEast = (northEast - southEast) * share;
+    const int last = static_cast<int>(cells);
+    double largest = 0;
+    for (int j = 0; j <= last; ++j) {
+        const double up = j;
+        const std::size_t start = (row + static_cast<std::size_t>(j)) * tile.side + column;
+        const double* const x = tile.grid.x.data() + start;
+        const double* const y = tile.grid.y.data() + start;
+        const double* const z = tile.grid.z.data() + start;
+        const Line west{southWest + up * upWest, alongNorth};
+        const Line east{southWest + up * upEast, alongSouth};
+        // Whole rows with selects, so that the compiler vectorises them; then what they leave out.
+        for (int i = 0; i < (last & ~3); ++i) {
+            const bool isWest = i <= up;
+            const Line line{{isWest ? west.from.x : east.from.x, isWest ? west.from.y : east.from.y,
+                             isWest ? west.from.z : east.from.z},
+                            {isWest ? west.step.x : east.step.x, isWest ? west.step.y : east.step.y,
+                             isWest ? west.step.z : east.step.z}};
+            largest = std::max(largest, squaredFrom(line, i, x, y, z));
+        }
+        largest = std::max(largest, squaredFrom(east, j, x, y, z));
+        largest = std::max(largest, squaredFrom(j < last ? east : west, last, x, y, z));
+    }
+    return largest;
+}
+
+PLANET_CPU_CLONES double largestSquaredOnAnyCell(const MeasuredTile& tile, std::size_t column,
+                                                 std::size_t row, std::size_t cells) {
+    return largestSquaredOnCell(tile, column, row, cells);
+}
+
+// The same for the smallest cells, of which there are most, in rows of constant length.
+PLANET_CPU_CLONES double largestSquaredOnSmallCell(const MeasuredTile& tile, std::size_t column,
+                                                   std::size_t row) {
+    return largestSquaredOnCell(tile, column, row, 4);
+}
 
 // Returns the number of chunks of a level along one side of a tile; 1 for levels above the tile.
 std::size_t chunksAlong(int level, int tileLevel) {
@@ -137,11 +162,12 @@ private:
         const auto firstColumn = (below.id.x - (id_.x << levels)) << shape_.chunkCellsLog2;
         const auto firstRow = (below.id.y - (id_.y << levels)) << shape_.chunkCellsLog2;
         facePositions(shape_, faceSquareOf(below.id), side, below.heights, scratch_);
+        const double perVertex = std::ldexp(1.0, -levels);  // cells of the searched chunk; exact
         double largest = 0;
         for (std::size_t j = 0; j < side; ++j) {
-            const double row = std::ldexp(static_cast<double>(firstRow + j), -levels);
+            const double row = static_cast<double>(firstRow + j) * perVertex;
             for (std::size_t i = 0; i < side; ++i) {
-                const double column = std::ldexp(static_cast<double>(firstColumn + i), -levels);
+                const double column = static_cast<double>(firstColumn + i) * perVertex;
                 const std::size_t at = j * side + i;
                 const glm::dvec3 off =
                     glm::dvec3(scratch_.x[at], scratch_.y[at], scratch_.z[at]) - surfaceM(column, row);
@@ -179,7 +205,6 @@ void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const 
     out.tile = tile;
     out.coarsestLevel = coarsestLevelOfTiles(tile.level, shape);
     out.largestM.clear();
-    if (out.coarsestLevel > deepestLevelOf(shape) - 2) return;
     facePositions(shape, faceSquareOf(tile), cells + 1, finest, scratch);
     const MeasuredTile grid{scratch, cells + 1};
     for (int level = out.coarsestLevel; level <= deepestLevelOf(shape) - 2; ++level) {
@@ -190,7 +215,8 @@ void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const 
         for (std::size_t row = 0; row < cells; row += cell) {
             for (std::size_t column = 0; column < cells; column += cell) {
                 double& ofChunk = largest[row / chunk * chunks + column / chunk];
-                ofChunk = std::max(ofChunk, grid.largestSquaredOnCell(column, row, cell));
+                ofChunk = std::max(ofChunk, cell == 4 ? largestSquaredOnSmallCell(grid, column, row)
+                                                      : largestSquaredOnAnyCell(grid, column, row, cell));
             }
         }
         for (double& squared : largest) squared = std::sqrt(squared);

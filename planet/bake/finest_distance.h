@@ -53,7 +53,7 @@ struct TileDistances {
 };
 
 // Measures a tile. finest: the (c + 1)^2 samples of its square in steps, row-major, c = faceCells >>
-// tile.level.
+// tile.level. Leaves their positions in scratch.
 void measureTile(const PlanetShape& shape, const ChunkId& tile, std::span<const std::int32_t> finest,
                  GeometricErrorScratch& scratch, TileDistances& out);
 

@@ -40,6 +40,18 @@ void facePositions(const PlanetShape& shape, const FaceSquare& square, std::size
 double geometricErrorM(const PlanetShape& shape, const ChunkId& chunk, StepsView refined,
                        GeometricErrorScratch& scratch);
 
+// The grid of a chunk including its children's samples, as part of a finer grid.
+struct RefinedSquare {
+    std::size_t firstColumn = 0;  // of the finer grid
+    std::size_t firstRow = 0;
+    std::size_t stride = 1;  // columns and rows of the finer grid between those of the chunk's
+    std::size_t cells = 0;   // 2 c
+};
+// Returns the δg of a chunk, metres. positions: a finer grid of side^2 vertices, from facePositions; the result has the
+// same bits as that of geometricErrorM.
+double geometricErrorOnGridM(const GeometricErrorScratch& positions, std::size_t side,
+                             const RefinedSquare& square);
+
 // Returns the smallest float that is not below the value, for stored errors.
 float roundedUp(double value);
 

@@ -127,6 +127,38 @@ TEST(GeometricError, matchesTheTrianglesDrawnInTheWorldsAxes) {
     }
 }
 
+TEST(GeometricError, partOfAFinerGridHasTheSameBits) {
+    // The grids of a chunk, of its children and of theirs, as parts of one grid with every sample of the last.
+    constexpr int levels = 3;
+    std::mt19937 random(11);
+    std::uniform_int_distribution<int> height(-8000, 8000);
+    const ChunkId top{Face::NegY, 3, 2, 5};
+    const Grid any(top);
+    const std::size_t cells = any.side() - 1;
+    const std::size_t side = (cells << (levels - 1)) + 1;
+    std::vector<std::int16_t> finest(side * side);
+    for (std::int16_t& step : finest) step = static_cast<std::int16_t>(height(random));
+    GeometricErrorScratch positions;
+    facePositions(any.shape, faceSquareOf(top), side, finest, positions);
+    for (int below = 0; below < levels; ++below) {
+        const std::size_t stride = std::size_t{1} << (levels - 1 - below);
+        for (std::uint32_t y = 0; y < 1u << below; ++y) {
+            for (std::uint32_t x = 0; x < 1u << below; ++x) {
+                Grid own({top.face, static_cast<std::uint8_t>(top.level + below), (top.x << below) + x,
+                          (top.y << below) + y});
+                const RefinedSquare square{x * cells * stride, y * cells * stride, stride, cells};
+                for (std::size_t j = 0; j <= cells; ++j) {
+                    for (std::size_t i = 0; i <= cells; ++i) {
+                        own.steps[j * own.side() + i] =
+                            finest[(square.firstRow + j * stride) * side + square.firstColumn + i * stride];
+                    }
+                }
+                EXPECT_EQ(geometricErrorOnGridM(positions, side, square), own.error()) << toString(own.chunk);
+            }
+        }
+    }
+}
+
 TEST(GeometricError, otherDiagonalWouldBeMeasuredDifferently) {
     // A ridge along the drawn diagonals costs nothing; the same ridge across them does.
     Grid along(nearMiddle(Face::PosX, 6));
