@@ -144,8 +144,8 @@ private:
         std::array<BakedChunk, quadrantCount> baked;
         for (std::size_t q = 0; q < baked.size(); ++q) baked[q] = std::move(children[q].baked);
         std::vector<std::byte> block;
-        BakedChunk parent = mergeChildren(bake_, parentOf(baked[0].id), baked, {{}, finestDistanceM}, file_.size(),
-                                          scratch_, block);
+        BakedChunk parent = mergeChildren(bake_, parentOf(baked[0].id), baked, {{}, finestDistanceM},
+                                          file_.size(), scratch_, block);
         TRY(file_.append(block));
         return parent;
     }

@@ -1,6 +1,7 @@
 // Converts numbers to and from bytes, little-endian on every machine and at any alignment. Any thread.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cassert>
 #include <concepts>
@@ -53,9 +54,11 @@ public:
     void put(T value) {
         using Bits = typename detail::UnsignedOfSize<sizeof(T)>::Type;
         const auto bits = std::bit_cast<Bits>(value);
+        std::array<std::byte, sizeof(T)> bytes;
         for (std::size_t i = 0; i < sizeof(T); ++i) {
-            out_.push_back(static_cast<std::byte>(static_cast<std::uint64_t>(bits) >> (8 * i)));
+            bytes[i] = static_cast<std::byte>(static_cast<std::uint64_t>(bits) >> (8 * i));
         }
+        out_.insert(out_.end(), bytes.begin(), bytes.end());
     }
 
 private:

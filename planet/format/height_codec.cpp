@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "planet/base/cpu_clones.h"
 #include "planet/base/little_endian.h"
 #include "planet/base/try.h"
 #include "planet/format/height_prediction.h"
@@ -81,7 +82,8 @@ std::size_t rowStart(RefinementPass pass, int row, int coarseCells) {
 
 // Computes widths from the exponent and two bits of the mantissa of the expected errors: their logarithms in
 // quarter octaves. Width 0 means that no error is expected.
-void toWidths(std::span<const float> expected256, int widthShift, std::span<std::uint8_t> widths) {
+PLANET_CPU_CLONES void toWidths(std::span<const float> expected256, int widthShift,
+                                std::span<std::uint8_t> widths) {
     constexpr int mantissaBits = 23;
     constexpr int widthOf256 = (127 + 8) << 2;
     const int shift = residualWidthOfOne - widthOf256 + widthShift;
@@ -144,16 +146,28 @@ CodedPass predictPass(RefinementPredictor& predictor, RefinementPass pass, int c
     return coded;
 }
 
-// Returns the cost of a pass with a width shift, in 1/256 bit, estimated from every step-th sample.
-std::int64_t costOf(const CodedPass& coded, int widthShift, std::size_t step) {
-    std::int64_t cost = 0;
-    for (std::size_t i = 0; i < coded.residuals.size(); i += step) {
-        std::uint8_t width = 0;
-        toWidths(std::span(&coded.expected256[i], 1), widthShift, std::span(&width, 1));
-        cost += residualCost(width, coded.residuals[i]);
+// Every step-th sample of a pass, of which its cost is estimated.
+struct CostSamples {
+    CodedPass coded;
+    std::vector<std::uint8_t> widths;
+
+    CostSamples(const CodedPass& pass, std::size_t step) {
+        const std::size_t count = (pass.residuals.size() + step - 1) / step;
+        coded.residuals.resize(count);
+        coded.expected256.resize(count);
+        widths.resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            coded.residuals[i] = pass.residuals[i * step];
+            coded.expected256[i] = pass.expected256[i * step];
+        }
     }
-    return cost;
-}
+
+    // Returns the cost with a width shift, in 1/256 bit.
+    std::int64_t cost(int widthShift) {
+        toWidths(coded.expected256, widthShift, widths);
+        return residualsCost(coded.residuals, widths);
+    }
+};
 
 // The effort of a compression level above 0.
 struct Effort {
@@ -168,11 +182,12 @@ Effort effortOf(int compressionLevel) {
 
 // Descends from a shift to the minimum of the cost, which is unique.
 std::int64_t bestShift(const CodedPass& coded, std::size_t step, int& widthShift) {
-    std::int64_t best = costOf(coded, widthShift, step);
+    CostSamples samples(coded, step);
+    std::int64_t best = samples.cost(widthShift);
     for (const int direction : {-1, 1}) {
         const int before = widthShift;
         while (widthShift + direction >= minWidthShift && widthShift + direction <= maxWidthShift) {
-            const std::int64_t cost = costOf(coded, widthShift + direction, step);
+            const std::int64_t cost = samples.cost(widthShift + direction);
             if (cost >= best) break;
             best = cost;
             widthShift += direction;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "planet/base/cpu_clones.h"
+
 namespace planet {
 
 namespace {
@@ -290,7 +292,7 @@ void RefinementPredictor::expectErrors(int row, std::span<float> expected256) co
 // In the loops below, k0 to k3 are coarse rows from above to below, m middles, r odd rows, b bends, e errors.
 // The loops write a different type than they read, which lets the compiler vectorise them.
 
-void RefinementPredictor::predictMiddle(int row, std::span<std::int16_t> predicted) const {
+PLANET_CPU_CLONES void RefinementPredictor::predictMiddle(int row, std::span<std::int16_t> predicted) const {
     const MiddleWeights w = middlePredictors[predictor_];
     const std::int32_t* const k0 = coarse_.row(row - 1);
     const std::int32_t* const k1 = coarse_.row(row);
@@ -306,7 +308,7 @@ void RefinementPredictor::predictMiddle(int row, std::span<std::int16_t> predict
     }
 }
 
-void RefinementPredictor::predictOddRow(int row, std::span<std::int16_t> predicted) const {
+PLANET_CPU_CLONES void RefinementPredictor::predictOddRow(int row, std::span<std::int16_t> predicted) const {
     const OddWeights w = oddRowPredictors[predictor_];
     const std::int32_t* const k0 = coarse_.row(row - 1);
     const std::int32_t* const k1 = coarse_.row(row);
@@ -327,7 +329,8 @@ void RefinementPredictor::predictOddRow(int row, std::span<std::int16_t> predict
     }
 }
 
-void RefinementPredictor::predictOddColumn(int row, std::span<std::int16_t> predicted) const {
+PLANET_CPU_CLONES void RefinementPredictor::predictOddColumn(int row,
+                                                             std::span<std::int16_t> predicted) const {
     const OddWeights w = oddColumnPredictors[predictor_];
     const std::int32_t* const k0 = coarse_.row(row - 1);
     const std::int32_t* const k1 = coarse_.row(row);
@@ -351,7 +354,7 @@ void RefinementPredictor::predictOddColumn(int row, std::span<std::int16_t> pred
 
 // The weights of expected errors are in 1/256, least-squares fits of |error| over ETOPO5.
 
-void RefinementPredictor::expectMiddle(int row, std::span<float> expected256) const {
+PLANET_CPU_CLONES void RefinementPredictor::expectMiddle(int row, std::span<float> expected256) const {
     const std::int32_t* const e = middleError_.row(row - 1);
     float* const out = expected256.data();
     for (int x = 0; x < cells_; ++x) {
@@ -360,7 +363,7 @@ void RefinementPredictor::expectMiddle(int row, std::span<float> expected256) co
     }
 }
 
-void RefinementPredictor::expectOddRow(int row, std::span<float> expected256) const {
+PLANET_CPU_CLONES void RefinementPredictor::expectOddRow(int row, std::span<float> expected256) const {
     const std::int32_t* const b1 = bendX_.row(row);
     const std::int32_t* const b2 = bendX_.row(row + 1);
     const std::int32_t* const m1 = middle_.row(row);
@@ -375,7 +378,7 @@ void RefinementPredictor::expectOddRow(int row, std::span<float> expected256) co
     }
 }
 
-void RefinementPredictor::expectOddColumn(int row, std::span<float> expected256) const {
+PLANET_CPU_CLONES void RefinementPredictor::expectOddColumn(int row, std::span<float> expected256) const {
     const std::int32_t* const k1 = coarse_.row(row);
     const std::int32_t* const b1 = bendX_.row(row);
     const std::int32_t* const m0 = middle_.row(row - 1);

@@ -181,24 +181,6 @@ constexpr WidthCode codeOfWidth(int widthIndex) {
     return {unshiftedWidths + above % shiftedWidths, 1 + above / shiftedWidths};
 }
 
-// The coding of one residual under a width.
-struct SymbolCode {
-    Interval interval;
-    int rawBitCount;
-    std::uint16_t rawBits;
-};
-
-SymbolCode codeOf(int widthIndex, int residual) {
-    const WidthCode code = codeOfWidth(widthIndex);
-    const auto& intervals = distributions()[at(code.distribution)].intervals;
-    const int symbol = (residual >> code.rawBitCount) + symbolOfZero;
-    if (symbol >= 0 && symbol < escapeSymbol && intervals[at(symbol)].frequency > 0) {
-        const int mask = (1 << code.rawBitCount) - 1;
-        return {intervals[at(symbol)], code.rawBitCount, static_cast<std::uint16_t>(residual & mask)};
-    }
-    return {intervals[at(escapeSymbol)], escapeRawBits, static_cast<std::uint16_t>(residual)};
-}
-
 // Returns log2(value) in 1/256, rounded down; value > 0. Computes the fraction bit by bit by squaring.
 int log2Times256(std::uint32_t value) {
     const int whole = static_cast<int>(std::bit_width(value)) - 1;
@@ -213,53 +195,160 @@ int log2Times256(std::uint32_t value) {
     return whole * 256 + fraction;
 }
 
-const std::array<std::int16_t, frequencyTotal + 1>& costsOfFrequencies() {
+// How the encoder codes a symbol of a distribution: a symbol that is impossible is coded as the escape.
+struct CodedSymbol {
+    Interval interval;
+    std::int16_t cost256 = 0;  // without raw bits
+    bool isEscape = false;
+};
+using CodedSymbols = std::array<CodedSymbol, symbolCount>;
+
+CodedSymbols codedSymbolsOf(const Distribution& distribution) {
+    CodedSymbols symbols;
+    for (int s = 0; s < symbolCount; ++s) {
+        const bool isEscape = s == escapeSymbol || distribution.intervals[at(s)].frequency == 0;
+        const Interval interval = distribution.intervals[at(isEscape ? escapeSymbol : s)];
+        const int cost256 = frequencyBits * 256 - log2Times256(interval.frequency);
+        symbols[at(s)] = {interval, static_cast<std::int16_t>(cost256), isEscape};
+    }
+    return symbols;
+}
+
+// Says how the encoder codes residuals under any width.
+class Coding {
+public:
+    Coding() {
+        for (std::size_t i = 0; i < symbols_.size(); ++i) symbols_[i] = codedSymbolsOf(distributions()[i]);
+        for (int width = 0; width < residualWidthCount; ++width) {
+            const WidthCode code = codeOfWidth(width);
+            widths_[at(width)] = code;
+            for (int s = 0; s < symbolCount; ++s) {
+                const CodedSymbol& coded = symbols_[at(code.distribution)][at(s)];
+                costs256_[at(width)][at(s)] = static_cast<std::int16_t>(
+                    coded.cost256 + 256 * (coded.isEscape ? escapeRawBits : code.rawBitCount));
+            }
+        }
+    }
+
+    struct Code {
+        const CodedSymbol& symbol;
+        int rawBitCount;
+    };
+    Code codeOf(int widthIndex, int residual) const {
+        const WidthCode width = widths_[at(widthIndex)];
+        const CodedSymbol& coded = symbols_[at(width.distribution)][symbolOf(width, residual)];
+        return {coded, coded.isEscape ? escapeRawBits : width.rawBitCount};
+    }
+
+    // Returns the cost in 1/256 bit, from a table of its own, which is small.
+    int cost256(int widthIndex, int residual) const {
+        return costs256_[at(widthIndex)][symbolOf(widths_[at(widthIndex)], residual)];
+    }
+
+private:
+    // Residuals outside of the symbols become the escape: below them, the number wraps around.
+    static unsigned symbolOf(const WidthCode& width, int residual) {
+        const auto symbol = static_cast<unsigned>((residual >> width.rawBitCount) + symbolOfZero);
+        return std::min(symbol, unsigned{escapeSymbol});
+    }
+
+    std::array<CodedSymbols, distributionCount> symbols_;
+    std::array<WidthCode, residualWidthCount> widths_;
+    std::array<std::array<std::int16_t, symbolCount>, residualWidthCount> costs256_;
+};
+
+const Coding& coding() {
+    static const Coding made;
+    return made;
+}
+
+// Divides by a frequency with a multiplication: x / f is the high half of 2 x m, shifted right by s. With s the number
+// of bits of f - 1 and m = ceil(2^(63 + s) / f), that is exact for x < 2^62 (Granlund and Montgomery 1994).
+struct Reciprocal {
+    std::uint64_t multiplier = 0;
+    int shift = 0;
+};
+
+__extension__ using Wide = unsigned __int128;
+
+Reciprocal reciprocalOf(std::uint32_t frequency) {
+    const int shift = static_cast<int>(std::bit_width(frequency - 1));
+    const Wide dividend = Wide{1} << (63 + shift);
+    return {static_cast<std::uint64_t>((dividend + frequency - 1) / frequency), shift};
+}
+
+const std::array<Reciprocal, frequencyTotal + 1>& reciprocals() {
     static const auto made = [] {
-        std::array<std::int16_t, frequencyTotal + 1> costs{};
-        for (std::uint32_t f = 1; f <= frequencyTotal; ++f)
-            costs[f] = static_cast<std::int16_t>(frequencyBits * 256 - log2Times256(f));
-        return costs;
+        std::array<Reciprocal, frequencyTotal + 1> all;
+        for (std::uint32_t f = 1; f <= frequencyTotal; ++f) all[f] = reciprocalOf(f);
+        return all;
     }();
     return made;
 }
 
+std::uint64_t dividedBy(const Reciprocal& reciprocal, std::uint64_t x) {
+    return static_cast<std::uint64_t>((Wide{2 * x} * reciprocal.multiplier) >> 64) >> reciprocal.shift;
+}
+
 }  // namespace
 
-int residualCost(int widthIndex, int residual) {
-    const SymbolCode code = codeOf(widthIndex, residual);
-    return costsOfFrequencies()[code.interval.frequency] + 256 * code.rawBitCount;
+std::int64_t residualsCost(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths) {
+    assert(residuals.size() == widths.size());
+    const Coding& all = coding();
+    std::int64_t cost256 = 0;
+    for (std::size_t i = 0; i < residuals.size(); ++i) cost256 += all.cost256(widths[i], residuals[i]);
+    return cost256;
 }
 
 void ResidualEncoder::addRow(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths) {
     assert(residuals.size() == widths.size());
+    const Coding& all = coding();
+    const std::size_t before = tokens_.size();
+    tokens_.resize(before + residuals.size());
+    Token* const tokens = tokens_.data() + before;
     for (std::size_t i = 0; i < residuals.size(); ++i) {
-        const SymbolCode code = codeOf(widths[i], residuals[i]);
-        tokens_.push_back({code.interval.start, code.interval.frequency, code.rawBits,
-                           static_cast<std::uint8_t>(code.rawBitCount), static_cast<std::uint8_t>(i & 1)});
+        const Coding::Code code = all.codeOf(widths[i], residuals[i]);
+        const int mask = (1 << code.rawBitCount) - 1;
+        tokens[i] = {code.symbol.interval.start, code.symbol.interval.frequency,
+                     static_cast<std::uint16_t>(residuals[i] & mask),
+                     static_cast<std::uint8_t>(code.rawBitCount), static_cast<std::uint8_t>(i & 1)};
     }
 }
 
 // The coder is last in, first out: the states process the tokens backwards, and their words are written
 // backwards.
 void ResidualEncoder::finish(std::vector<std::byte>& out) const {
-    std::array<std::uint64_t, 2> states = {stateMin, stateMin};
-    std::vector<std::uint32_t> words;
-    words.reserve(tokens_.size() / 4);
+    const auto& dividers = reciprocals();
+    std::vector<std::uint32_t> words(tokens_.size());  // a token writes at most one
+    std::size_t wordCount = 0;
+    const auto put = [&](std::uint64_t & state, const Token& token) __attribute__((always_inline)) {
+        const std::uint64_t frequency = token.frequency;
+        // From this limit on, the state would leave its range. Selects instead of branching, because the branch would
+        // be unpredictable.
+        const std::uint64_t limit = (stateMin >> frequencyBits << wordBits >> token.rawBitCount) * frequency;
+        const bool isFull = state >= limit;
+        words[wordCount] = static_cast<std::uint32_t>(state);
+        wordCount += isFull ? 1 : 0;
+        const std::uint64_t kept = isFull ? state >> wordBits : state;
+        const std::uint64_t coded = kept << token.rawBitCount | token.rawBits;
+        const std::uint64_t quotient = dividedBy(dividers[frequency], coded);
+        state = (quotient << frequencyBits) + (coded - quotient * frequency) + token.start;
+    };
+    std::uint64_t even = stateMin;
+    std::uint64_t odd = stateMin;
+    // Branches, which follow a pattern, let both states stay in registers.
     for (auto token = tokens_.rbegin(); token != tokens_.rend(); ++token) {
-        std::uint64_t& state = states[token->state];
-        const std::uint64_t frequency = token->frequency;
-        // From this limit on, the state would leave its range.
-        const std::uint64_t limit = (stateMin >> frequencyBits << wordBits >> token->rawBitCount) * frequency;
-        if (state >= limit) {
-            words.push_back(static_cast<std::uint32_t>(state));
-            state >>= wordBits;
+        if (token->state == 0) {
+            put(even, *token);
+        } else {
+            put(odd, *token);
         }
-        state = state << token->rawBitCount | token->rawBits;
-        state = (state / frequency << frequencyBits) + state % frequency + token->start;
     }
+    out.reserve(out.size() + 2 * stateBytes + wordCount * wordBytes);
     ByteWriter writer(out);
-    for (const std::uint64_t state : states) writer.put(state);
-    for (auto word = words.rbegin(); word != words.rend(); ++word) writer.put(*word);
+    writer.put(even);
+    writer.put(odd);
+    for (std::size_t i = wordCount; i-- > 0;) writer.put(words[i]);
 }
 
 ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded)

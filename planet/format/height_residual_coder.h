@@ -21,8 +21,8 @@ namespace planet {
 inline constexpr int residualWidthCount = 84;
 inline constexpr int residualWidthOfOne = 24;
 
-// Returns the cost of a residual under a width, in 1/256 bit, for choosing between codings.
-int residualCost(int widthIndex, int residual);
+// Returns the cost of residuals under their widths, in 1/256 bit, for choosing between codings.
+std::int64_t residualsCost(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths);
 
 // Collects residuals in the order of the decoder.
 class ResidualEncoder {

@@ -525,21 +525,25 @@ TEST(ResidualCoder, CostIsWhatTheBytesTake) {
     std::mt19937 random(3);
     for (const int width : {10, residualWidthOfOne, residualWidthOfOne + 12, residualWidthCount - 10}) {
         Residuals residuals;
-        std::int64_t cost256 = 0;
         for (int i = 0; i < 20000; ++i) {
             const int magnitude = 1 << std::max(0, (width - residualWidthOfOne) / 4);
             residuals.push_back(static_cast<std::int16_t>(static_cast<int>(random() % 3 - 1) * magnitude));
-            cost256 += residualCost(width, residuals.back());
         }
         const std::vector<std::uint8_t> widths(residuals.size(), static_cast<std::uint8_t>(width));
         ResidualEncoder encoder(residuals.size());
         encoder.addRow(residuals, widths);
         Bytes bytes;
         encoder.finish(bytes);
-        const double expectedBytes = static_cast<double>(cost256) / (256 * 8);
+        const double expectedBytes = static_cast<double>(residualsCost(residuals, widths)) / (256 * 8);
         EXPECT_NEAR(static_cast<double>(bytes.size()), expectedBytes, 20 + 0.005 * expectedBytes)
             << "width " << width;
     }
+}
+
+std::int64_t costOf(int width, int residual) {
+    const auto one = static_cast<std::int16_t>(residual);
+    const auto itsWidth = static_cast<std::uint8_t>(width);
+    return residualsCost(std::span(&one, 1), std::span(&itsWidth, 1));
 }
 
 // The encoder's choice of width would be worth nothing otherwise.
@@ -547,9 +551,8 @@ TEST(ResidualCoder, AResidualIsCheapestAtItsOwnWidth) {
     for (int octave = 0; octave < 12; ++octave) {
         const int own = residualWidthOfOne + 4 * octave;
         const int residual = 1 << octave;
-        EXPECT_LT(residualCost(own, residual), residualCost(own - 12, residual));
-        EXPECT_LT(residualCost(own, residual),
-                  residualCost(std::min(own + 12, residualWidthCount - 1), residual));
+        EXPECT_LT(costOf(own, residual), costOf(own - 12, residual));
+        EXPECT_LT(costOf(own, residual), costOf(std::min(own + 12, residualWidthCount - 1), residual));
     }
 }
 
