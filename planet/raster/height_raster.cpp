@@ -176,22 +176,25 @@ std::size_t HeightBlockKey::Hash::operator()(const HeightBlockKey& key) const {
     return XXH3_64bits(&key, sizeof(key));
 }
 
-Result<HeightBlockCache::Block> HeightBlockCache::get(
-    const HeightBlockKey& key, const std::function<Result<std::vector<float>>()>& load) {
+template <class Sample>
+Result<typename BlockCache<Sample>::Block> BlockCache<Sample>::get(
+    const HeightBlockKey& key, const std::function<Result<std::vector<Sample>>()>& load) {
     if (Block kept = find(key)) return kept;
     // The block is loaded without the lock. Two threads may load the same block, which is slower but correct.
     TRY_ASSIGN(auto loaded, load());
-    Block block = std::make_shared<const std::vector<float>>(std::move(loaded));
+    Block block = std::make_shared<const std::vector<Sample>>(std::move(loaded));
     insert(key, block);
     return block;
 }
 
-std::size_t HeightBlockCache::bytes() const {
+template <class Sample>
+std::size_t BlockCache<Sample>::bytes() const {
     const std::lock_guard lock(mutex_);
     return bytes_;
 }
 
-HeightBlockCache::Block HeightBlockCache::find(const HeightBlockKey& key) {
+template <class Sample>
+typename BlockCache<Sample>::Block BlockCache<Sample>::find(const HeightBlockKey& key) {
     const std::lock_guard lock(mutex_);
     const auto found = byKey_.find(key);
     if (found == byKey_.end()) return nullptr;
@@ -199,13 +202,14 @@ HeightBlockCache::Block HeightBlockCache::find(const HeightBlockKey& key) {
     return found->second->block;
 }
 
-void HeightBlockCache::insert(const HeightBlockKey& key, const Block& block) {
-    const std::size_t blockBytes = block->size() * sizeof(float);
+template <class Sample>
+void BlockCache<Sample>::insert(const HeightBlockKey& key, const Block& block) {
+    const std::size_t blockBytes = block->size() * sizeof(Sample);
     const std::size_t limit = limit_();
     const std::lock_guard lock(mutex_);
     if (byKey_.contains(key) || blockBytes > limit) return;
     while (bytes_ + blockBytes > limit) {
-        bytes_ -= entries_.back().block->size() * sizeof(float);
+        bytes_ -= entries_.back().block->size() * sizeof(Sample);
         byKey_.erase(entries_.back().key);
         entries_.pop_back();
     }
@@ -213,6 +217,9 @@ void HeightBlockCache::insert(const HeightBlockKey& key, const Block& block) {
     byKey_.emplace(key, entries_.begin());
     bytes_ += blockBytes;
 }
+
+template class BlockCache<float>;
+template class BlockCache<std::byte>;
 
 HeightRaster HeightRaster::whole(int width, int height, std::vector<float> heightsM,
                                  const HeightStatistics& statistics) {
@@ -243,40 +250,57 @@ RasterRect HeightRaster::blockRect(int blockX, int blockY) const {
     return {x, y, std::min(blocks_.width, width_ - x), std::min(blocks_.height, height_ - y)};
 }
 
-Result<std::vector<float>> HeightRaster::loadBlock(int blockX, int blockY,
-                                                   HeightStatistics* statistics) const {
-    const auto width = static_cast<std::size_t>(blocks_.width);
+// A cache of 16-bit samples holds twice as many as one of heights, and only what is sampled is converted. Colours are
+// converted once, because decoding sRGB is slow.
+bool HeightRaster::cachesStored() const {
+    return bytesOf(conversion_.type) <= sizeof(float) && !conversion_.decodesSrgb;
+}
+
+Result<std::vector<std::byte>> HeightRaster::readStored(int blockX, int blockY) const {
+    std::vector<std::byte> stored(static_cast<std::size_t>(blocks_.width) *
+                                  static_cast<std::size_t>(blocks_.height) * bytesOf(conversion_.type));
+    TRY(blocks_.read(blockX, blockY, stored));
+    return stored;
+}
+
+HeightStatistics HeightRaster::convertBlock(const RasterRect& block, std::span<const std::byte> stored,
+                                            std::span<float> out) const {
     const std::size_t sampleBytes = bytesOf(conversion_.type);
-    std::vector<std::byte> native(width * static_cast<std::size_t>(blocks_.height) * sampleBytes);
-    TRY(blocks_.read(blockX, blockY, native));
-    const RasterRect rect = blockRect(blockX, blockY);
-    const auto inside = static_cast<std::size_t>(rect.width);
-    std::vector<float> heights(inside * static_cast<std::size_t>(rect.height));
-    for (std::size_t row = 0; row < static_cast<std::size_t>(rect.height); ++row) {
-        const HeightStatistics part = convertToMetres(
-            conversion_, std::span(native).subspan(row * width * sampleBytes, inside * sampleBytes),
-            std::span(heights).subspan(row * inside, inside));
-        if (statistics) addTo(*statistics, part);
+    const std::size_t rowBytes = static_cast<std::size_t>(blocks_.width) * sampleBytes;
+    const auto inside = static_cast<std::size_t>(block.width);
+    HeightStatistics statistics;
+    for (std::size_t row = 0; row < static_cast<std::size_t>(block.height); ++row) {
+        addTo(statistics, convertToMetres(conversion_, stored.subspan(row * rowBytes, inside * sampleBytes),
+                                          out.subspan(row * inside, inside)));
     }
-    return heights;
+    return statistics;
+}
+
+Result<std::vector<std::byte>> HeightRaster::loadBlock(int blockX, int blockY) const {
+    TRY_ASSIGN(auto stored, readStored(blockX, blockY));
+    if (cachesStored()) return stored;
+    const RasterRect rect = blockRect(blockX, blockY);
+    std::vector<float> heights(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height));
+    convertBlock(rect, stored, heights);
+    const auto bytes = std::as_bytes(std::span(heights));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
 namespace {
 
-// Copies the intersection of two rectangles from the samples of one to those of the other.
-void copyShared(const RasterRect& from, const float* samples, const RasterRect& to, float* out,
-                std::size_t strideSamples) {
+// Calls visit(source, target, count) for each row of the intersection of two rectangles: its first sample in either, and
+// the number of its samples.
+template <class Visit>
+void forSharedRows(const RasterRect& from, std::size_t fromStride, const RasterRect& to, std::size_t toStride,
+                   const Visit& visit) {
     const int x0 = std::max(from.x, to.x);
     const int x1 = std::min(from.x + from.width, to.x + to.width);
     const int y0 = std::max(from.y, to.y);
     const int y1 = std::min(from.y + from.height, to.y + to.height);
     for (int y = y0; y < y1; ++y) {
-        const std::size_t source =
-            static_cast<std::size_t>(y - from.y) * static_cast<std::size_t>(from.width) +
-            static_cast<std::size_t>(x0 - from.x);
-        const std::size_t target =
-            static_cast<std::size_t>(y - to.y) * strideSamples + static_cast<std::size_t>(x0 - to.x);
-        std::copy_n(samples + source, x1 - x0, out + target);
+        visit(static_cast<std::size_t>(y - from.y) * fromStride + static_cast<std::size_t>(x0 - from.x),
+              static_cast<std::size_t>(y - to.y) * toStride + static_cast<std::size_t>(x0 - to.x),
+              static_cast<std::size_t>(x1 - x0));
     }
 }
 
@@ -286,15 +310,33 @@ Result<void> HeightRaster::read(const RasterRect& rect, float* out, std::size_t 
     assert(rect.x >= 0 && rect.y >= 0 && rect.x + rect.width <= width_ && rect.y + rect.height <= height_);
     if (rect.width <= 0 || rect.height <= 0) return {};
     if (whole_) {
-        copyShared({0, 0, width_, height_}, whole_->data(), rect, out, strideSamples);
+        forSharedRows({0, 0, width_, height_}, static_cast<std::size_t>(width_), rect, strideSamples,
+                      [&](std::size_t source, std::size_t target, std::size_t count) {
+                          std::copy_n(whole_->data() + source, count, out + target);
+                      });
         return {};
     }
     for (int blockY = rect.y / blocks_.height; blockY * blocks_.height < rect.y + rect.height; ++blockY) {
         for (int blockX = rect.x / blocks_.width; blockX * blocks_.width < rect.x + rect.width; ++blockX) {
             const HeightBlockKey key{blocks_.cacheSlot, blockX, blockY};
-            TRY_ASSIGN(const auto block,
-                       blocks_.cache->get(key, [&] { return loadBlock(blockX, blockY, nullptr); }));
-            copyShared(blockRect(blockX, blockY), block->data(), rect, out, strideSamples);
+            TRY_ASSIGN(const auto block, blocks_.cache->get(key, [&] { return loadBlock(blockX, blockY); }));
+            const RasterRect place = blockRect(blockX, blockY);
+            if (cachesStored()) {
+                const std::size_t sampleBytes = bytesOf(conversion_.type);
+                forSharedRows(place, static_cast<std::size_t>(blocks_.width), rect, strideSamples,
+                              [&](std::size_t source, std::size_t target, std::size_t count) {
+                                  convertToMetres(
+                                      conversion_,
+                                      std::span(*block).subspan(source * sampleBytes, count * sampleBytes),
+                                      std::span(out + target, count));
+                              });
+            } else {
+                forSharedRows(place, static_cast<std::size_t>(place.width), rect, strideSamples,
+                              [&](std::size_t source, std::size_t target, std::size_t count) {
+                                  std::memcpy(out + target, block->data() + source * sizeof(float),
+                                              count * sizeof(float));
+                              });
+            }
         }
     }
     return {};
@@ -303,10 +345,14 @@ Result<void> HeightRaster::read(const RasterRect& rect, float* out, std::size_t 
 Result<HeightStatistics> HeightRaster::statistics(const std::stop_token& stop) const {
     if (statistics_) return *statistics_;
     HeightStatistics statistics;
+    std::vector<float> heights;
     for (int blockY = 0; blockY * blocks_.height < height_; ++blockY) {
         for (int blockX = 0; blockX * blocks_.width < width_; ++blockX) {
             if (stop.stop_requested()) return cancelled();
-            TRY(loadBlock(blockX, blockY, &statistics));
+            TRY_ASSIGN(const auto stored, readStored(blockX, blockY));
+            const RasterRect rect = blockRect(blockX, blockY);
+            heights.resize(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height));
+            addTo(statistics, convertBlock(rect, stored, heights));
         }
     }
     return statistics;

@@ -69,16 +69,17 @@ struct HeightBlockKey {
 };
 
 // Caches the most recently used blocks: at most a limit of bytes besides those in use. Thread-safe.
-class HeightBlockCache {
+template <class Sample>
+class BlockCache {
 public:
-    using Block = std::shared_ptr<const std::vector<float>>;
+    using Block = std::shared_ptr<const std::vector<Sample>>;
 
-    explicit HeightBlockCache(std::size_t maxBytes) : limit_([maxBytes] { return maxBytes; }) {}
+    explicit BlockCache(std::size_t maxBytes) : limit_([maxBytes] { return maxBytes; }) {}
     // limit is asked for before each new block, by any thread.
-    explicit HeightBlockCache(std::function<std::size_t()> limit) : limit_(std::move(limit)) {}
+    explicit BlockCache(std::function<std::size_t()> limit) : limit_(std::move(limit)) {}
 
     // Returns the block of a key; calls load() if it is not cached.
-    Result<Block> get(const HeightBlockKey& key, const std::function<Result<std::vector<float>>()>& load);
+    Result<Block> get(const HeightBlockKey& key, const std::function<Result<std::vector<Sample>>()>& load);
     std::size_t bytes() const;  // currently cached
 
 private:
@@ -92,9 +93,15 @@ private:
     const std::function<std::size_t()> limit_;
     mutable std::mutex mutex_;
     std::list<Entry> entries_;  // most recently used first
-    std::unordered_map<HeightBlockKey, std::list<Entry>::iterator, HeightBlockKey::Hash> byKey_;
+    std::unordered_map<HeightBlockKey, typename std::list<Entry>::iterator, HeightBlockKey::Hash> byKey_;
     std::size_t bytes_ = 0;
 };
+extern template class BlockCache<float>;
+extern template class BlockCache<std::byte>;
+
+using HeightBlockCache = BlockCache<float>;
+// Blocks as a file stores them, or heights.
+using StoredBlockCache = BlockCache<std::byte>;
 
 struct RasterRect {
     int x = 0;
@@ -111,7 +118,7 @@ public:
         int height = 0;
         // Fills a block's native samples, row-major; samples beyond the edges may have any value.
         std::function<Result<void>(int blockX, int blockY, std::span<std::byte> native)> read;
-        std::shared_ptr<HeightBlockCache> cache;
+        std::shared_ptr<StoredBlockCache> cache;
         std::uint64_t cacheSlot = 0;  // distinguishes rasters that share a cache
     };
 
@@ -134,7 +141,13 @@ public:
 
 private:
     RasterRect blockRect(int blockX, int blockY) const;  // clipped to the grid
-    Result<std::vector<float>> loadBlock(int blockX, int blockY, HeightStatistics* statistics) const;
+    bool cachesStored() const;  // whether the cache holds samples as the file stores them, and no heights
+    Result<std::vector<std::byte>> readStored(int blockX, int blockY) const;
+    // Returns a block for the cache; its rows have the same number of samples.
+    Result<std::vector<std::byte>> loadBlock(int blockX, int blockY) const;
+    // Converts the part of a block that lies on the grid; out has as many samples.
+    HeightStatistics convertBlock(const RasterRect& block, std::span<const std::byte> stored,
+                                  std::span<float> out) const;
 
     int width_ = 0;
     int height_ = 0;
@@ -186,7 +199,7 @@ private:
 };
 
 struct RasterMemory {
-    std::shared_ptr<HeightBlockCache> cache;
+    std::shared_ptr<StoredBlockCache> cache;
     std::uint64_t cacheSlot = 0;      // distinguishes rasters that share the cache
     std::size_t wholeLimitBytes = 0;  // an untiled image up to this size is kept whole
 };

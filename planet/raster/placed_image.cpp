@@ -59,7 +59,7 @@ private:
 
 // Blocks are cached by the mosaic, so the image itself needs no cache.
 RasterMemory memoryOf(const HeightSourceSettings& settings) {
-    return {std::make_shared<HeightBlockCache>(0), 0, settings.cacheBytes / 2};
+    return {std::make_shared<StoredBlockCache>(0), 0, settings.cacheBytes / 2};
 }
 
 struct RawSize {

@@ -508,7 +508,7 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     const ImageLayout& layout = file->layout();
     TRY_ASSIGN(const auto placement, placementOf(path.string(), layout.width, layout.height, layout.geoTags));
     TRY_ASSIGN(const auto conversion, conversionFor(path.string(), settings, layout.type, layout.geoTags));
-    const RasterMemory memory{std::make_shared<HeightBlockCache>(settings.cacheBytes), 0,
+    const RasterMemory memory{std::make_shared<StoredBlockCache>(settings.cacheBytes), 0,
                               settings.cacheBytes};
     TRY_ASSIGN(const auto image, openImageRaster(file, conversion, memory, settings.fileCalls));
     TRY_ASSIGN(const auto statistics, image.statistics(settings.stop));

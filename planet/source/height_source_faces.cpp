@@ -495,7 +495,7 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
     TRY_ASSIGN(auto conversion, conversionFor(files.paths[0].string(), settings, format.type, tags));
     conversion.swapBytes = raw && settings.rawBigEndian != (std::endian::native == std::endian::big);
 
-    const auto cache = std::make_shared<HeightBlockCache>(settings.cacheBytes);
+    const auto cache = std::make_shared<StoredBlockCache>(settings.cacheBytes);
     FaceSet set;
     for (int i = 0; i < faceCount; ++i) {
         const auto face = static_cast<std::size_t>(i);

@@ -93,7 +93,7 @@ TEST(HeightRaster, BlocksThatStickOutAreCutAtTheEdges) {
     HeightRaster::Blocks blocks;
     blocks.width = 4;
     blocks.height = 4;
-    blocks.cache = std::make_shared<HeightBlockCache>(1 << 10);
+    blocks.cache = std::make_shared<StoredBlockCache>(1 << 10);
     blocks.read = [](int blockX, int blockY, std::span<std::byte> native) -> Result<void> {
         for (int i = 0; i < 16; ++i) {
             const int x = blockX * 4 + i % 4;
@@ -112,6 +112,27 @@ TEST(HeightRaster, BlocksThatStickOutAreCutAtTheEdges) {
     ASSERT_TRUE(statistics);
     EXPECT_EQ(statistics->minM, 0);
     EXPECT_EQ(statistics->maxM, 69);
+}
+
+TEST(HeightRaster, ACacheHoldsSamplesAsTheFileStoresThem) {
+    constexpr int side = 16;
+    constexpr std::size_t blockBytes = side * side * sizeof(std::int16_t);
+    HeightConversion conversion;
+    conversion.type = SampleType::Int16;
+    int reads = 0;
+    HeightRaster::Blocks blocks;
+    blocks.width = side;
+    blocks.height = side;
+    blocks.cache = std::make_shared<StoredBlockCache>(2 * blockBytes);
+    blocks.read = [&](int, int, std::span<std::byte>) -> Result<void> {
+        ++reads;
+        return {};
+    };
+    const HeightRaster raster = HeightRaster::inBlocks(2 * side, side, conversion, blocks);
+    std::vector<float> out(side * side);
+    for (const int x : {0, side, 0, side}) ASSERT_TRUE(raster.read({x, 0, side, side}, out.data(), side));
+    EXPECT_EQ(reads, 2);
+    EXPECT_EQ(blocks.cache->bytes(), 2 * blockBytes);
 }
 
 TEST(HeightRaster, BytesAreSwappedBeforeTheyBecomeMetres) {
