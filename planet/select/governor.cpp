@@ -1,0 +1,374 @@
+#include "planet/select/governor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+namespace planet {
+
+namespace {
+
+constexpr double mostLn = 20;       // of τ and of use, so that all numbers stay finite
+constexpr double meanS = 0.5;       // over which bytes read are averaged
+constexpr double backlashS = 1;     // in which a moving camera brings chunks back to the edge of splitting
+constexpr double growthS = 0.4;     // over which the growth of a level is averaged
+constexpr double foresightS = 0.1;  // by which growth is foreseen, about as long as a small rise takes
+constexpr double creepForesightS = 0.3;
+constexpr double mostGrowthPerS = 1;
+constexpr double leastStep = 0.1;  // a larger change of a level in one frame is a step, which tells no growth
+constexpr double forgetS = 30;     // of the changes from which elasticity is estimated
+constexpr double priorWeight = 0.01;  // of elasticity 1, as a sum of squares
+constexpr double leastChange = 0.05;  // of ln triangles that tells elasticity
+constexpr double leastElasticity = 0.4;
+constexpr double leastExponent = 0.25;
+constexpr double mostExponent = 4;
+constexpr double largeRise = 0.05;  // of ln τ; goes to the middle of the band, so that no second one follows
+constexpr double fallS = 0.25;      // time constant of a fall
+constexpr double holdS = 1;         // from a rise to a fall: a chunk that changes back within it thrashes
+constexpr double longWayS = 60;     // "never" for the ages of rises and falls
+
+// Returns 0 for what is not measured.
+double measured(double value) {
+    return std::isfinite(value) && value > 0 ? value : 0;
+}
+
+double within(double value, double otherwise, double least, double most) {
+    return std::isfinite(value) ? std::clamp(value, least, most) : otherwise;
+}
+
+double lnTauOf(double tauPx, double otherwise) {
+    return measured(tauPx) > 0 ? std::clamp(std::log(tauPx), -mostLn, mostLn) : otherwise;
+}
+
+// The share of a mean that the newest value has.
+double newestShare(double elapsedS, double timeConstantS) {
+    return 1 - std::exp(-elapsedS / timeConstantS);
+}
+
+// The settings within their ranges, as logarithms.
+struct Rules {
+    GovernorCosts budget;
+    double leastX, mostX;  // ln τ
+    double lnCeiling, lnMiddle, lnFloor;
+    double exponent;
+    double risePerS, fallPerS;
+    double fadeS, morphRange, backlash;
+    std::size_t gpuFramesLate;
+};
+
+Rules rulesOf(const GovernorSettings& s) {
+    const GovernorSettings usual;
+    Rules rules{};
+    rules.budget = s.budget;
+    rules.leastX = lnTauOf(s.leastTauPx, std::log(usual.leastTauPx));
+    rules.mostX = std::max(lnTauOf(s.mostTauPx, std::log(usual.mostTauPx)), rules.leastX);
+    const double ceiling = within(s.ceiling, usual.ceiling, 0.05, 1);
+    const double hysteresis = within(s.hysteresis, usual.hysteresis, 0, 0.9 * ceiling);
+    rules.lnCeiling = std::log(ceiling);
+    rules.lnMiddle = std::log(ceiling - 0.5 * hysteresis);
+    rules.lnFloor = std::log(ceiling - hysteresis);
+    rules.exponent = within(s.exponent, usual.exponent, leastExponent, mostExponent);
+    rules.risePerS = within(s.risePerS, usual.risePerS, 0, 100);
+    rules.fallPerS = within(s.fallPerS, usual.fallPerS, 1e-3, 100);
+    rules.fadeS = within(s.fadeS, usual.fadeS, 0, 10);
+    rules.morphRange = within(s.morphRange, usual.morphRange, 0.01, 4);
+    rules.backlash = -std::log(1 - within(s.lodHysteresis, usual.lodHysteresis, 0, 0.9));
+    rules.gpuFramesLate = static_cast<std::size_t>(std::clamp(s.gpuFramesLate, 0, 6));
+    return rules;
+}
+
+constexpr bool isTime(GovernorBudget budget) {
+    return budget == GovernorBudget::CpuTime || budget == GovernorBudget::GpuTime;
+}
+
+double medianOf(const std::array<double, 3>& v) {
+    return std::max(std::min(v[0], v[1]), std::min(std::max(v[0], v[1]), v[2]));
+}
+
+// Follows the τ by which chunks merge, and that to which they have morphed: a fall at once; a rise by ln(1 + morphRange) in
+// fadeS, or by the level that has morphed in that time.
+void followFade(GovernorState& state, double x, double elapsedS, const Rules& rules) {
+    const double camera = (x - state.mergingLnTau) * newestShare(elapsedS, backlashS);
+    const double merging =
+        state.frames == 0 ? x : std::clamp(state.mergingLnTau + camera, x - rules.backlash, x);
+    const double partS = rules.fadeS / static_cast<double>(GovernorState::fadeParts - 1);
+    if (state.frames == 0 || partS <= 0) {
+        state.parts.fill({merging, merging});
+        state.mergingLnTau = state.shownLnTau = merging;
+        state.partS = 0;
+        return;
+    }
+    state.partS = std::min(state.partS + elapsedS, 2 * rules.fadeS);
+    for (; state.partS >= partS; state.partS -= partS) {
+        std::shift_right(state.parts.begin(), state.parts.end(), 1);
+        state.parts[0] = {state.mergingLnTau, state.shownLnTau};
+    }
+    const auto lower = [](const GovernorState::Part& a, const GovernorState::Part& b) {
+        return GovernorState::Part{std::min(a.mergingLnTau, b.mergingLnTau),
+                                   std::min(a.shownLnTau, b.shownLnTau)};
+    };
+    GovernorState::Part least = state.parts[0] = lower(state.parts[0], {merging, merging});
+    for (const GovernorState::Part& part : state.parts) least = lower(least, part);
+    const double slid = state.shownLnTau + elapsedS * std::log1p(rules.morphRange) / rules.fadeS;
+    const double faded = std::min(least.mergingLnTau, least.shownLnTau + std::numbers::ln2);
+    state.mergingLnTau = merging;
+    state.shownLnTau = std::min(merging, std::max(slid, faded));
+}
+
+template <std::size_t Count>
+void push(std::array<double, Count>& newestFirst, double value) {
+    std::shift_right(newestFirst.begin(), newestFirst.end(), 1);
+    newestFirst[0] = value;
+}
+
+// Follows how fast the camera makes the triangles more, whose count has no noise.
+void followGrowth(GovernorState& state, double exponent, double elapsedS) {
+    if (elapsedS <= 0) return;
+    const double change =
+        state.lnTriangles[0] - state.lnTriangles[1] + exponent * (state.lnTau[0] - state.lnTau[1]);
+    const double perS = std::clamp(change / elapsedS, -mostGrowthPerS, mostGrowthPerS);
+    state.growthPerS +=
+        ((std::abs(change) > leastStep ? 0 : perS) - state.growthPerS) * newestShare(elapsedS, growthS);
+}
+
+double exponentIn(const GovernorSample& sample, const Rules& rules) {
+    const double exponent = within(sample.exponent, 0, 0, mostExponent);
+    return exponent > 0 ? std::max(exponent, leastExponent) : rules.exponent;
+}
+
+// Takes a sample that was selected with ln τ = x.
+void takeSample(GovernorState& state, const GovernorSample& sample, double x, double elapsedS,
+                const Rules& rules) {
+    followFade(state, x, elapsedS, rules);
+    const double lnTriangles = std::log(std::max(measured(sample.cost.triangles), 1.0));
+    if (state.frames == 0) {
+        state.lnTau.fill(x);
+        state.lnTriangles.fill(lnTriangles);
+        state.meanLnTau = x;
+        state.sinceRiseS = state.sinceFallS = longWayS;
+    }
+    push(state.lnTau, state.shownLnTau);
+    push(state.lnTriangles, lnTriangles);
+    followGrowth(state, exponentIn(sample, rules), elapsedS);
+    for (std::size_t b = 0; b < governorBudgetCount; ++b) {
+        std::array<double, 3>& last = state.costs[b];
+        push(last, measured(valueOf(sample.cost, static_cast<GovernorBudget>(b))));
+        if (last[1] == 0 && last[2] == 0) last.fill(last[0]);
+    }
+    const double newest = newestShare(elapsedS, meanS);
+    state.readBytesPerS +=
+        (std::min(measured(sample.cost.readBytesPerS), 1e18) - state.readBytesPerS) * newest;
+    state.meanLnTau += (state.shownLnTau - state.meanLnTau) * newest;
+    ++state.frames;
+}
+
+// Returns the cost that is compared with the budget; 0: not measured.
+double costOf(const GovernorState& state, GovernorBudget budget) {
+    const std::array<double, 3>& last = state.costs[static_cast<std::size_t>(budget)];
+    if (budget == GovernorBudget::Reading) return std::max(state.readBytesPerS, 1e-3);
+    return isTime(budget) ? medianOf(last) : last[0];
+}
+
+// Notes by how much a time has changed since the triangles were last others.
+void noteElasticity(GovernorState::Elasticity& known, double lnTriangles, double lnCost, double elapsedS) {
+    const double kept = 1 - newestShare(elapsedS, forgetS);
+    known.sumXX *= kept;
+    known.sumXY *= kept;
+    const double x = lnTriangles - known.lnTriangles;
+    if (known.known && std::abs(x) < leastChange) return;
+    if (known.known) {
+        // A larger change of the time has another reason.
+        const double y = std::clamp(lnCost - known.lnCost, -2 * std::abs(x), 2 * std::abs(x));
+        known.sumXX += x * x;
+        known.sumXY += x * y;
+    }
+    known.lnTriangles = lnTriangles;
+    known.lnCost = lnCost;
+    known.known = true;
+}
+
+double elasticityOf(const GovernorState::Elasticity& known) {
+    return std::clamp((known.sumXY + priorWeight) / (known.sumXX + priorWeight), leastElasticity, 1.0);
+}
+
+// How a cost follows τ, and the bounds of the ln τ that it belongs to.
+struct Law {
+    double exponent;
+    double elasticity;
+    double leastX, mostX;
+};
+
+Law lawOf(GovernorState& state, GovernorBudget budget, double cost, const GovernorSample& sample,
+          double elapsedS, const Rules& rules) {
+    Law law{exponentIn(sample, rules), 1, state.lnTau[0], state.lnTau[0]};
+    if (budget == GovernorBudget::Reading) law.leastX = law.mostX = state.meanLnTau;
+    if (!isTime(budget)) return law;
+    // A median of three is one frame late.
+    const std::size_t late = (budget == GovernorBudget::GpuTime ? rules.gpuFramesLate : 0) + 1;
+    const auto [least, most] =
+        std::minmax_element(state.lnTau.begin(), state.lnTau.begin() + static_cast<std::ptrdiff_t>(late) + 1);
+    law.leastX = *least;
+    law.mostX = *most;
+    GovernorState::Elasticity& elasticity = state.elasticities[static_cast<std::size_t>(budget)];
+    if (measured(sample.cost.triangles) > 0)
+        noteElasticity(elasticity, state.lnTriangles[late], std::log(cost), elapsedS);
+    law.elasticity = elasticityOf(elasticity);
+    return law;
+}
+
+// Returns by how much ln τ must change for the cost to change by the factor exp(lnFactor).
+double moveFor(double lnFactor, const Law& law) {
+    constexpr double leastTriangles = 0.1;  // share that one move leaves
+    return -std::log(std::max((std::exp(lnFactor) - 1) / law.elasticity + 1, leastTriangles)) / law.exponent;
+}
+
+// The ln τ that bring a cost to the ceiling, to the middle and to the floor of its band.
+struct Demand {
+    double ceiling, middle, floor;
+};
+
+Demand demandOf(GovernorState& state, GovernorBudget budget, double cost, double limit,
+                const GovernorSample& sample, double elapsedS, const Rules& rules) {
+    const Law law = lawOf(state, budget, cost, sample, elapsedS, rules);
+    const double growth = budget == GovernorBudget::Reading ? 0 : std::max(state.growthPerS, 0.0);
+    const double lnUse = std::clamp(std::log(cost) - std::log(limit), -mostLn, mostLn);
+    // Each chunk that waits becomes four.
+    const double waiting = std::log1p(3 * within(sample.waitingShare, 0, 0, 1));
+    return {law.leastX + moveFor(rules.lnCeiling - lnUse - foresightS * growth, law),
+            law.leastX + moveFor(rules.lnMiddle - lnUse - creepForesightS * growth, law),
+            law.mostX + moveFor(rules.lnFloor - lnUse - foresightS * growth - waiting, law)};
+}
+
+// Follows the speed at which reading lets τ fall, and returns it.
+double readFall(GovernorState& state, double use, double elapsedS, const Rules& rules) {
+    constexpr double littleUse = 0.5, quickeningPerS2 = 0.2, halfLifeS = 0.1, mostPerS = 2;
+    if (use > std::exp(rules.lnFloor))
+        state.readFallPerS *= std::exp2(-elapsedS / halfLifeS);
+    else if (use < littleUse)
+        state.readFallPerS = std::min(state.readFallPerS + quickeningPerS2 * elapsedS, mostPerS);
+    return use > std::exp(rules.lnCeiling) ? 0 : state.readFallPerS;
+}
+
+// What all budgets together allow.
+struct Demands {
+    Demand largest;
+    double fallPerS = std::numeric_limits<double>::infinity();
+};
+
+Demands demandsOf(Governed& result, const GovernorSample& sample, double elapsedS, const Rules& rules) {
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    GovernorState& state = result.state;
+    Demands all{{none, none, none}};
+    for (std::size_t b = 0; b < governorBudgetCount; ++b) {
+        const auto budget = static_cast<GovernorBudget>(b);
+        const double limit = measured(valueOf(rules.budget, budget));
+        const double cost = costOf(state, budget);
+        if (limit == 0 || cost == 0) continue;
+        const Demand demand = demandOf(state, budget, cost, limit, sample, elapsedS, rules);
+        if (!result.governs || demand.floor > all.largest.floor) {
+            result.binds = budget;
+            result.use = cost / limit;
+        }
+        result.governs = true;
+        all.largest.floor = std::max(all.largest.floor, demand.floor);
+        const bool isReading = budget == GovernorBudget::Reading;
+        if (isReading) all.fallPerS = readFall(state, cost / limit, elapsedS, rules);
+        // What a fall of τ has read is over soon.
+        if (isReading && state.sinceFallS <= 2 * meanS) continue;
+        all.largest.ceiling = std::max(all.largest.ceiling, demand.ceiling);
+        all.largest.middle = std::max(all.largest.middle, demand.middle);
+    }
+    return all;
+}
+
+// Returns by how much ln τ falls if it is too large by gap. A wide gap closes faster, because chunks that split are far
+// from the budget.
+double fallOf(double gap, double mostPerS, double elapsedS, const Rules& rules) {
+    constexpr double wideGap = 0.3;
+    constexpr double leastFallPerS = 0.02;  // so that a fall ends
+    const double perS = std::min(rules.fallPerS * std::max(gap / wideGap, 1.0), mostPerS);
+    return std::min(
+        {gap, std::max(gap * newestShare(elapsedS, fallS), leastFallPerS * elapsedS), perS * elapsedS});
+}
+
+// Returns the next ln τ, before its limits. x: now, within the limits. merging: that by which chunks merge.
+double nextX(double x, double merging, const Demands& demands, const GovernorState& state, double elapsedS,
+             const Rules& rules) {
+    const Demand& to = demands.largest;
+    if (to.ceiling > merging)
+        return (to.ceiling > merging + largeRise ? to.middle : to.ceiling) + rules.backlash;
+    if (to.middle > merging) {
+        const double wholeBand = std::max(to.middle - to.ceiling, 1e-9);
+        const double share = std::min(2 * (to.middle - merging) / wholeBand, 1.0);
+        return x + std::min(to.middle + rules.backlash - x, rules.risePerS * elapsedS * share);
+    }
+    if (to.floor < std::min(x, state.shownLnTau) && state.sinceRiseS >= holdS)
+        return x - fallOf(x - to.floor, demands.fallPerS, elapsedS, rules);
+    return x;
+}
+
+}  // namespace
+
+double exponentOf(const Selection& selection, double tauPx) {
+    const auto merges =
+        std::count_if(selection.draw.begin(), selection.draw.end(), [&](const DrawItem& item) {
+            return item.id.level > 0 && static_cast<double>(item.parentEpsPx) <= 2 * tauPx;
+        });
+    if (selection.draw.empty()) return 0;
+    const auto drawn = static_cast<double>(selection.draw.size());
+    return -std::log2(1 - 0.75 * static_cast<double>(merges) / drawn);
+}
+
+std::size_t neededChunks(const Selection& selection) {
+    return selection.touched.size() + quadrantCount * selection.requests.size();
+}
+
+double valueOf(const GovernorCosts& costs, GovernorBudget budget) {
+    switch (budget) {
+        case GovernorBudget::CpuTime:
+            return costs.cpuMs;
+        case GovernorBudget::GpuTime:
+            return costs.gpuMs;
+        case GovernorBudget::Triangles:
+            return costs.triangles;
+        case GovernorBudget::Memory:
+            return costs.memoryBytes;
+        case GovernorBudget::Reading:
+            return costs.readBytesPerS;
+    }
+    return 0;
+}
+
+Governed govern(const GovernorState& before, const GovernorSample& sample, const GovernorSettings& settings) {
+    const Rules rules = rulesOf(settings);
+    const double elapsedS = within(sample.elapsedS, 0, 0, 1);
+    Governed result{.state = before, .tauPx = sample.tauPx};
+    GovernorState& state = result.state;
+
+    // 1. Follow what the sample says.
+    const double x = lnTauOf(sample.tauPx, before.frames > 0 ? before.lnTau[0] : rules.mostX);
+    takeSample(state, sample, x, elapsedS, rules);
+
+    // 2. Ask each budget for its τ.
+    const Demands demands = demandsOf(result, sample, elapsedS, rules);
+    if (!result.governs) return result;
+
+    // 3. Move.
+    const double now = std::clamp(x, rules.leastX, rules.mostX);
+    const double wanted = nextX(now, state.mergingLnTau + now - x, demands, state, elapsedS, rules);
+    const double next = std::clamp(wanted, rules.leastX, rules.mostX);
+    constexpr double atLimit = 0.005;
+    if (demands.largest.ceiling > rules.mostX) result.limit = GovernorLimit::MostTau;
+    if (demands.largest.floor < rules.leastX && next - rules.leastX < atLimit)
+        result.limit = GovernorLimit::LeastTau;
+    state.sinceRiseS = next > x ? 0 : std::min(state.sinceRiseS + elapsedS, longWayS);
+    state.sinceFallS = next < x ? 0 : std::min(state.sinceFallS + elapsedS, longWayS);
+    // A τ that stays keeps its bits.
+    if (next != x || measured(sample.tauPx) == 0) result.tauPx = std::exp(next);
+    return result;
+}
+
+}  // namespace planet
