@@ -37,10 +37,20 @@ inline constexpr Term screenPx{"screen_px", "Measured screen-space error",
                                "The same distance in the projected image, pixels, for samples inside it; "
                                "larger towards the corners."};
 
+inline constexpr Term tauPx{"tau_px", "Tolerance \u03c4",
+                            "Tolerance that the frame was selected with, pixels. A budget moves it."};
+inline constexpr Term budgetUse{
+    "budget_use", "Budget use",
+    "Cost of the frame as a share of the budget that binds: times as medians of three frames, bytes read as "
+    "means of half a second."};
+inline constexpr Term budgetBinds{"budget_binds", "Binds",
+                                  "Budget that needs the largest tolerance, or the limit of the tolerance."};
+
 }  // namespace terms
 
 inline constexpr std::array glossary = {terms::drawnChunks, terms::groundTriangles, terms::skirtTriangles,
                                         terms::triangles,   terms::epsPx,           terms::drawnBoundPx,
-                                        terms::measuredPx,  terms::screenPx};
+                                        terms::measuredPx,  terms::screenPx,        terms::tauPx,
+                                        terms::budgetUse,   terms::budgetBinds};
 
 }  // namespace worldy

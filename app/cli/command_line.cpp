@@ -153,10 +153,15 @@ void addShot(CLI::App& command, ShotOptions& options, ViewTexts& view) {
     command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
 }
 
-void addFly(CLI::App& command, FlyOptions& options) {
+void addFly(CLI::App& command, FlyOptions& options, ViewTexts& view) {
     command.add_option("FILE", options.file, "Chunk file")->required();
     command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
     command.add_option("--trace", options.trace, "Trace to write of the frames, for worldy trace");
+    addSettingOption(command, "--budget-cpu-ms", defaultField("budget.cpu_ms"), view);
+    addSettingOption(command, "--budget-gpu-ms", defaultField("budget.gpu_ms"), view);
+    addSettingOption(command, "--budget-triangles", defaultField("budget.triangles"), view);
+    addSettingOption(command, "--budget-memory", defaultField("budget.memory_mb"), view);
+    addSettingOption(command, "--budget-mb-per-second", defaultField("budget.read_mb_s"), view);
 }
 
 void addBench(CLI::App& command, BenchOptions& options) {
@@ -621,7 +626,7 @@ struct CommandLine {
         addVerify(at("verify"), file);
         addProbe(at("probe"), file);
         addShot(at("shot"), shot, shared["shot"].view);
-        addFly(at("fly"), fly);
+        addFly(at("fly"), fly, shared["fly"].view);
         addBench(at("bench"), bench);
         addSweep(at("sweep"), sweep, sweepTexts);
         addCracks(at("cracks"), cracks, shared["cracks"].view);

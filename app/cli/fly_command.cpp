@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,12 +18,15 @@
 #include "app/base/message.h"
 #include "app/base/report.h"
 #include "app/base/stopwatch.h"
+#include "app/flight/budget_figures.h"
 #include "app/flight/flight_path.h"
 #include "app/flight/flight_path_file.h"
 #include "app/flight/planet_trace.h"
 #include "app/scene/frame_report.h"
+#include "app/scene/governing.h"
 #include "app/scene/offscreen.h"
 #include "planet/base/percentile.h"
+#include "planet/measure/lod_changes.h"
 
 namespace worldy {
 
@@ -36,6 +42,13 @@ struct FlownFrame {
     planet::CameraPose pose;
     bool lifted = false;
     FrameStats stats;
+};
+
+// A flight as it was flown.
+struct Flown {
+    FlightPath path;
+    std::vector<FlownFrame> frames;
+    std::uint64_t thrash = 0;  // level changes back and forth within a second
 };
 
 // A quantity of the summary and its name in JSON.
@@ -112,7 +125,38 @@ Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double
     return frame;
 }
 
-Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector<FlownFrame>& frames) {
+BudgetFigures figuresOf(const Flown& flown) {
+    std::vector<BudgetedFrame> frames;
+    for (const FlownFrame& frame : flown.frames)
+        frames.push_back(
+            {frame.timeS - flown.frames.front().timeS, frame.stats.budget.use, frame.stats.budget.limit});
+    return budgetFiguresOf(frames);
+}
+
+Json budgetJson(const FlyOptions& options, const Flown& flown) {
+    const BudgetSettings& budget = options.view.budget;
+    const BudgetFigures figures = figuresOf(flown);
+    std::map<std::string, int> binds;
+    for (const FlownFrame& frame : flown.frames) ++binds[std::string(bindsKey(frame.stats.budget))];
+    return {{"cpu_ms", budget.cpuMs},
+            {"gpu_ms", budget.gpuMs},
+            {"triangles", budget.triangles},
+            {"memory_mb", budget.memoryMB},
+            {"read_mb_s", budget.readMBs},
+            {"least_tau_px", budget.leastTauPx},
+            {"most_tau_px", budget.mostTauPx},
+            {"frames", figures.frames},
+            {"frames_over", figures.over},
+            {"frames_at_lower_limit", figures.atLowerLimit},
+            {"frames_at_upper_limit", figures.atUpperLimit},
+            {"median_use", figures.medianUse},
+            {"most_use", figures.mostUse},
+            {"thrash", flown.thrash},
+            {terms::budgetBinds.key, binds}};
+}
+
+Json jsonOf(const FlyOptions& options, const Flown& flown) {
+    const auto& [path, frames, thrash] = flown;
     Json report = {{"flight", path.name},
                    {"file", options.file.string()},
                    {"frames", frames.size()},
@@ -129,6 +173,7 @@ Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector
                                             {"p99", figure(spread.percentile99)},
                                             {"maximum", figure(spread.maximum)}};
     }
+    if (options.view.budget.isOn()) report["budget"] = budgetJson(options, flown);
     report["frame"] = Json::array();
     for (const FlownFrame& frame : frames) {
         Json entry = {{"time_s", frame.timeS}, {"camera", poseJson(frame.pose)}, {"lifted", frame.lifted}};
@@ -138,7 +183,18 @@ Json jsonOf(const FlyOptions& options, const FlightPath& path, const std::vector
     return report;
 }
 
-void printSummary(const FlightPath& path, const std::vector<FlownFrame>& frames) {
+void printBudget(const Flown& flown) {
+    const BudgetFigures figures = figuresOf(flown);
+    fmt::print(
+        "\nBudget, without the first second: {} of {} frames over budget, at most {:.1f} %; median use "
+        "{:.1f} % where tau is "
+        "above its lower limit, which it reaches in {} frames; {} chunks thrashed\n",
+        figures.over, figures.frames, 100 * figures.mostUse, 100 * figures.medianUse, figures.atLowerLimit,
+        flown.thrash);
+}
+
+void printSummary(const Flown& flown) {
+    const auto& [path, frames, thrash] = flown;
     fmt::print("{}: {} frames over {:.0f} s\n\n{:20}{:>16}{:>16}{:>16}\n", path.name, frames.size(),
                durationS(path), "", "median", "99th percentile", "maximum");
     for (const Quantity& quantity : quantities) {
@@ -171,24 +227,34 @@ Result<void> flyPath(const FlyOptions& options) {
         trace.emplace(std::move(*created));
     }
     const InterruptWatch watch;
-    std::vector<FlownFrame> frames;
+    Flown flown{*path, {}, 0};
+    ViewSettings settings = options.view;
+    Governing governing;
+    planet::LodChanges changes;
     for (int i = 0; i < moments->count; ++i) {
         if (watch.interrupted()) return planet::cancelled();
-        const Result<FlownFrame> frame =
-            flyFrame(*offscreen, *path, moments->timeS(i), i > 0 ? moments->stepS : 0, options.view);
+        const double elapsedS = i > 0 ? moments->stepS : 0;
+        Result<FlownFrame> frame = flyFrame(*offscreen, *path, moments->timeS(i), elapsedS, settings);
         if (!frame) return tl::unexpected(frame.error());
-        frames.push_back(*frame);
-        const FrameStats& stats = frame->stats;
+        FrameStats& stats = frame->stats;
+        changes.add(planet.selection(), frame->timeS);
+        governTau(governing, &stats, planet, elapsedS, settings);
+        stats.budget = governing.use;
         if (trace)
             trace->addFrame(planet, {frame->timeS, stats.frameMs,
                                      stats.render.chunksMs + stats.render.skyMs + stats.render.shadowsMs});
+        flown.frames.push_back(std::move(*frame));
     }
+    flown.thrash = changes.thrashTotal();
     if (trace) {
         if (Result<void> finished = trace->finish(planet); !finished) return finished;
     }
     for (const std::string& problem : takeProblems(offscreen->scene)) printMessage("worldy: {}\n", problem);
-    if (!options.report.json) printSummary(*path, frames);
-    return writeReport(options.report, jsonOf(options, *path, frames));
+    if (!options.report.json) {
+        printSummary(flown);
+        if (options.view.budget.isOn()) printBudget(flown);
+    }
+    return writeReport(options.report, jsonOf(options, flown));
 }
 
 }  // namespace worldy

@@ -77,6 +77,12 @@ WindowContent Editor::windowContent(const Session& session) const {
     return {session, settings_.settings, camera_, compare_, viewport_};
 }
 
+Settings Editor::settings() const {
+    Settings settings = settings_.settings;
+    if (!replaying()) settings.view = ungoverned(settings_, std::move(settings.view));
+    return settings;
+}
+
 void Editor::endFlights(Session& session) {
     Scene* scene = shownScene(session);
     endReplay(recording_, scene, replayContext());
@@ -186,7 +192,8 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     if (const std::string why = std::exchange(window_.menu.refused, {}); !why.empty()) refuse(notices_, why);
     // A replay's settings are not the user's, so they are not recorded for undo.
     if (!replaying())
-        settings_.undo.record(before, settings_.settings.view, ImGui::IsAnyItemActive(), frames_.timeS);
+        settings_.undo.record(ungoverned(settings_, before), ungoverned(settings_, settings_.settings.view),
+                              ImGui::IsAnyItemActive(), frames_.timeS);
     ui::endExports();
     execute(commands, window, session);
     stats.panelsMs = panelWatch.elapsedMs();
@@ -294,6 +301,7 @@ void Editor::meetPlanet(Scene& scene) {
     forgetPlanet(instruments_);
     frames_.lastScene = scene.identity;
     frames_.history = {};
+    forgetCosts(settings_.governing);
     frames_.stepOnce = true;  // the new planet needs a first selection
 }
 
@@ -308,7 +316,10 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     viewport_.shaderWait = window_.screenshotPending || window_.report.isWanted
                                ? planet::gl::ShaderWait::UntilReady
                                : planet::gl::ShaderWait::Never;
-    if (!replaying()) giveSettings(recording_, scene, settings, paging_.paused, notices_.log);
+    if (!replaying()) {
+        governFrame(settings_, frames_, *scene.planet, seconds);
+        giveSettings(recording_, scene, settings, paging_.paused, notices_.log);
+    }
     placeCameras(camera_, scene, viewport_, settings_.settings);
     const FrameStep step = takeStep(frames_, seconds);
     movePlanet(scene, step);
@@ -340,6 +351,7 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
     FrameStats stats = statsOf(scene);
     stats.overlaysMs = std::max(watch.elapsedMs() - stats.drawCpuMs, 0.0);
     stats.targetBytes = gpuBytes(viewport_) + gpuBytes(compare_);
+    if (!replaying()) stats.budget = settings_.governing.use;
     return stats;
 }
 
@@ -395,13 +407,15 @@ FrameActivity Editor::activity(const Session& session, const FrameStats& stats) 
         return scene && !frames_.paused && !paging_.paused && !scene->planet->settled();
     };
     const TraceController& trace = files_.trace;
-    const std::array<std::pair<bool, FrameActivity>, 14> activities = {{
+    const std::array<std::pair<bool, FrameActivity>, 15> activities = {{
         {ImGui::IsAnyMouseDown(), {Activity::Motion, "a mouse button is held"}},
         {!(frames_.lastView == viewport_.main.view && frames_.lastObserverView == viewport_.observer.view),
          {Activity::Motion, "the camera moves"}},
         {isLoading(shownScene(session)), {Activity::Motion, "chunks load"}},
         {compare_.other && isLoading(&compare_.other->planet.scene), {Activity::Motion, "chunks of B load"}},
         {!frames_.paused && stats.selection.fading > 0, {Activity::Motion, "levels fade"}},
+        {!frames_.paused && !replaying() && isSettling(settings_.governing),
+         {Activity::Motion, "the tolerance follows a budget"}},
         {stats.render.standIn || (compare_.other && compare_.other->stats.render.standIn),
          {Activity::Motion, "shaders are compiled"}},
         {recording_.recorder.has_value(), {Activity::Motion, "a flight is recorded"}},

@@ -31,7 +31,8 @@ public:
     // settingsFile: what the caller saves the settings in, empty if it does not.
     Editor(const Settings& settings, const std::filesystem::path& settingsFile, const Log& log);
 
-    const Settings& settings() const { return settings_.settings; }
+    // Returns the settings to save. A budget's τ is not the user's.
+    Settings settings() const;
     // Writes the positions of controls into a file after each frame.
     void keepItemMap(const std::filesystem::path& file) { window_.itemMapFile = file; }
 

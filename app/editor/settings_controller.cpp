@@ -86,6 +86,19 @@ void showNextLayout(SettingsController& controller, Notices& notices) {
 
 }  // namespace
 
+void governFrame(SettingsController& controller, const FrameController& frames, const planet::Planet& planet,
+                 double secondsSinceLast) {
+    if (frames.paused && !frames.stepOnce) return;
+    const std::optional<ui::FrameSample>& last = frames.history.last;
+    governTau(controller.governing, last ? &last->stats : nullptr, planet, secondsSinceLast,
+              controller.settings.view);
+}
+
+ViewSettings ungoverned(const SettingsController& controller, ViewSettings view) {
+    if (controller.governing.ownTauPx) view.lod.tauPx = *controller.governing.ownTauPx;
+    return view;
+}
+
 void execute(SettingsController& controller, const ui::SettingsCommand& command, bool replaying,
              Notices& notices) {
     ViewSettings& view = controller.settings.view;
@@ -101,7 +114,7 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
                 if (const auto settings = controller.undo.redo()) view = *settings;
             },
             [&](const ui::SavePreset& preset) {
-                if (succeeded(notices, controller.presets.save(preset.name, view),
+                if (succeeded(notices, controller.presets.save(preset.name, ungoverned(controller, view)),
                               "The preset was not saved"))
                     confirm(notices, fmt::format("Preset saved: {}",
                                                  fileOf(controller.presets.views(view), preset.name)));
@@ -134,13 +147,14 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
 }
 
 void replaceView(SettingsController& controller, ViewSettings settings, std::string name) {
-    controller.undo.add(controller.settings.view, settings, std::move(name));
+    controller.undo.add(ungoverned(controller, controller.settings.view), settings, std::move(name));
     controller.settings.view = std::move(settings);
 }
 
 ui::SettingsView settingsViewOf(SettingsController& controller) {
-    return {controller.presets.views(controller.settings.view), controller.undo.undoName(),
-            controller.undo.redoName(), controller.layouts.layouts(), controller.unsavedLayout.has_value()};
+    return {controller.presets.views(ungoverned(controller, controller.settings.view)),
+            controller.undo.undoName(), controller.undo.redoName(), controller.layouts.layouts(),
+            controller.unsavedLayout.has_value()};
 }
 
 }  // namespace worldy

@@ -6,10 +6,13 @@
 #include <string>
 
 #include "app/data/layout_library.h"
+#include "app/editor/frame_controller.h"
 #include "app/editor/notices.h"
 #include "app/editor/presets.h"
+#include "app/scene/governing.h"
 #include "app/settings/settings.h"
 #include "app/settings/undo.h"
+#include "planet/planet.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
@@ -22,7 +25,14 @@ struct SettingsController {
     PresetLibrary presets{presetFolders()};
     LayoutLibrary layouts{layoutFolders()};
     std::optional<Workspace> unsavedLayout;  // the last one that another replaced before it was saved
+    Governing governing;                     // moves τ of the settings while a budget is on
 };
+
+// Moves τ by the budgets, unless the next frame will not step. secondsSinceLast: >= 0.
+void governFrame(SettingsController& controller, const FrameController& frames, const planet::Planet& planet,
+                 double secondsSinceLast);
+// Returns view settings with the user's own τ, which a budget replaces while it is on.
+ViewSettings ungoverned(const SettingsController& controller, ViewSettings view);
 
 // Settings stay as they are during a replay, which restores them at its end.
 void execute(SettingsController& controller, const ui::SettingsCommand& command, bool replaying,

@@ -11,6 +11,8 @@
 #include "app/base/output_file.h"
 #include "app/base/picture_file.h"
 #include "app/base/text.h"
+#include "app/scene/frame_stats.h"
+#include "app/scene/governing.h"
 #include "app/settings/settings_text.h"
 #include "planet/format/chunk_file_types.h"
 #include "planet/sphere/cube_sphere.h"
@@ -304,14 +306,16 @@ constexpr const char* terms = R"(
 }  // namespace
 
 std::string sessionReport(const EditorView& view, const Settings& settings, const ReportFacts& facts) {
+    const BudgetUse& budget = view.frames.stats.budget;
     std::string text = fmt::format("# Worldy: session report on {}\n\n", shown(view.data.name));
     text += fmt::format(
         "Written on {} by Worldy {}, with {}. Worldy shows a planet by chunked level of detail: near ground "
         "is drawn with "
         "fine chunks, far ground with coarse ones, so that the error on the screen stays below a tolerance "
-        "τ, here {}. The "
+        "τ, here {}{}. The "
         "last section explains the terms.\n\n",
-        facts.writtenAt, facts.version, shown(facts.openGl), pixelsText(settings.view.lod.tauPx));
+        facts.writtenAt, facts.version, shown(facts.openGl), pixelsText(settings.view.lod.tauPx),
+        budget.isOn ? fmt::format(", chosen by a budget ({})", bindsText(budget, "τ")) : "");
     text +=
         fmt::format("![The view]({})\n\n![The window with its panels]({})\n", planetPicture, windowPicture);
     text += fileSection(view, facts) + settingsSection(settings) + viewSection(view, settings, facts);

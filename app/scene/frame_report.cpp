@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/base/glossary.h"
+#include "app/scene/governing.h"
 #include "app/settings/camera_text.h"
 
 namespace worldy {
@@ -26,9 +27,7 @@ nlohmann::ordered_json byKind(const FrameStats& stats, const CountOf& countOf) {
             {"normals", countOf(stats.paging[planet::BlockKind::Normals])}};
 }
 
-}  // namespace
-
-nlohmann::ordered_json statsJson(const FrameStats& stats) {
+nlohmann::ordered_json countersJson(const FrameStats& stats) {
     return {{"visited", stats.selection.visited},
             {"culled_frustum", stats.selection.culledFrustum},
             {"culled_horizon", stats.selection.culledHorizon},
@@ -64,6 +63,17 @@ nlohmann::ordered_json statsJson(const FrameStats& stats) {
             {"colour_tile_bytes", stats.gpuMemory.colourTiles},
             {"clipmap_bytes", stats.gpuMemory.colourClipmap},
             {"clipmap_texels", stats.clipmap.filledTexels}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json statsJson(const FrameStats& stats) {
+    nlohmann::ordered_json json = countersJson(stats);
+    if (!stats.budget.isOn) return json;
+    json[terms::tauPx.key] = stats.tauPx;
+    json[terms::budgetUse.key] = stats.budget.use;
+    json[terms::budgetBinds.key] = bindsKey(stats.budget);
+    return json;
 }
 
 std::vector<std::uint32_t> drawnByLevel(const planet::Selection& selection) {

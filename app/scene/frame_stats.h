@@ -1,12 +1,14 @@
 // The counts and times of one frame, for panels and reports.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "planet/gl/draw/render_counters.h"
 #include "planet/planet.h"
-#include "planet/select/lod_select.h"
+#include "planet/select/governor.h"
+#include "planet/select/lod_types.h"
 
 namespace worldy {
 
@@ -17,7 +19,19 @@ struct ClipmapStats {
     std::string problem;            // why a requested clipmap is missing; empty: no problem
 };
 
+// How a frame used its budgets (planet/select/governor.h).
+struct BudgetUse {
+    bool isOn = false;        // a budget is set
+    bool isMeasured = false;  // and the cost of one is known
+    planet::GovernorBudget binds = planet::GovernorBudget::CpuTime;
+    planet::GovernorLimit limit = planet::GovernorLimit::None;
+    double use = 0;                                          // of the budget that binds
+    std::array<double, planet::governorBudgetCount> uses{};  // of each; 0: off or not measured
+};
+
 struct FrameStats {
+    double tauPx = 0;  // with which the chunks were selected
+    BudgetUse budget;
     planet::SelectionCounters selection;
     planet::PagingCounters paging;
     planet::StageTimes stages;

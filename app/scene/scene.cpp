@@ -217,6 +217,7 @@ tl::unexpected<planet::Error> loadingTimedOut() {
 
 FrameStats statsOf(const Scene& scene) {
     FrameStats stats;
+    if (!scene.planet->views().empty()) stats.tauPx = scene.planet->views()[0].input.lod.tauPx;
     stats.selection = scene.planet->selection().counters;
     stats.paging = scene.planet->paging();
     stats.stages = scene.planet->lastStep().times;

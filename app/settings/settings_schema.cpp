@@ -83,6 +83,44 @@ void addLod(Fields& fields, planet::LodSettings& lod) {
           Number{&lod.fadeS, {0, 10, "s"}, "%.2f", logarithmic}}});
 }
 
+void addBudget(Fields& fields, BudgetSettings& budget) {
+    fields.insert(
+        fields.end(),
+        {{"budget", "cpu_ms", "CPU time",
+          "Most CPU time of a frame: selecting, paging, uploading, drawing and panels, without waiting for "
+          "the "
+          "monitor. The tolerance follows it. 0: off. Smaller: coarser ground.",
+          Number{&budget.cpuMs, {0, 1000, "ms"}, "%.1f", logarithmic}, "CPU time budget"},
+         {"budget", "gpu_ms", "GPU time",
+          "Most GPU time of a frame, panels included. The tolerance follows it. 0: off. Smaller: coarser "
+          "ground. Without timer queries it has no effect.",
+          Number{&budget.gpuMs, {0, 1000, "ms"}, "%.1f", logarithmic}, "GPU time budget"},
+         {"budget", "triangles", "Triangles",
+          "Most triangles of a frame, skirts included. The tolerance follows it. 0: off. Smaller: coarser "
+          "ground.",
+          Integer{&budget.triangles, {0, 100'000'000, ""}, logarithmic}, "Triangle budget"},
+         {"budget", "memory_mb", "Memory",
+          "Most memory of the chunks that the picture needs, CPU and GPU together. The tolerance follows it. "
+          "0: off. A value below the paging budget keeps chunks from waiting for room.",
+          Integer{&budget.memoryMB, {0, 65536, "MiB"}, logarithmic}, "Memory budget"},
+         {"budget", "read_mb_s", "Reading",
+          "Most bytes read from the file in a second, as a mean of half a second. 1 MB is 10^6 bytes. The "
+          "tolerance follows it. 0: off. Smaller: coarser ground while the camera is fast.",
+          Number{&budget.readMBs, {0, 10000, "MB/s"}, "%.2f", logarithmic}, "Reading budget"},
+         {"budget", "least_tau_px", "Least τ",
+          "Smallest tolerance that a budget may choose. Larger: costs stay below the budgets in simple "
+          "views.",
+          Number{&budget.leastTauPx, {smallestTauPx, largestTauPx, "px"}, "%.2f", logarithmic}},
+         {"budget", "most_tau_px", "Most τ",
+          "Largest tolerance that a budget may choose. Smaller: costs exceed the budgets in difficult views "
+          "instead of more error. Below the least τ it has no effect.",
+          Number{&budget.mostTauPx, {smallestTauPx, largestTauPx, "px"}, "%.2f", logarithmic}},
+         {"budget", "hysteresis", "Band",
+          "Width of the band of use, below 97.5 %, in which the tolerance stays or only creeps. Larger: "
+          "fewer level changes, but less of the budget is used. Small: τ follows the noise of the times.",
+          Number{&budget.hysteresis, {0, 0.5, ""}}, "Budget band"}});
+}
+
 void addSeams(Fields& fields, planet::LodSettings& lod, OverlaySettings& overlay) {
     fields.insert(
         fields.end(),
@@ -666,6 +704,7 @@ void addCompare(Fields& fields, CompareSettings& compare) {
 
 void addViewSettings(Fields& fields, ViewSettings& view) {
     addLod(fields, view.lod);
+    addBudget(fields, view.budget);
     addSeams(fields, view.lod, view.overlay);
     addPaging(fields, view.paging);
     addOverlay(fields, view.overlay);
@@ -678,7 +717,7 @@ void addViewSettings(Fields& fields, ViewSettings& view) {
 }
 
 // The size of the largest list, so that it is allocated once.
-constexpr std::size_t fieldCount = 135 + 2 * panelCount + dockCount;
+constexpr std::size_t fieldCount = 143 + 2 * panelCount + dockCount;
 
 }  // namespace
 

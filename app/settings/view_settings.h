@@ -150,8 +150,24 @@ struct CompareSettings {
     bool operator==(const CompareSettings&) const = default;
 };
 
+// The budgets that the governor keeps by moving τ; 0: off.
+struct BudgetSettings {
+    double cpuMs = 0;
+    double gpuMs = 0;
+    int triangles = 0;
+    int memoryMB = 0;
+    double readMBs = 0;
+    double leastTauPx = 0.5;
+    double mostTauPx = 16;
+    double hysteresis = 0.12;
+
+    bool isOn() const { return cpuMs > 0 || gpuMs > 0 || triangles > 0 || memoryMB > 0 || readMBs > 0; }
+    bool operator==(const BudgetSettings&) const = default;
+};
+
 struct ViewSettings {
     planet::LodSettings lod;
+    BudgetSettings budget;
     PagingOptions paging;
     OverlaySettings overlay;
     SurfaceSettings surface;

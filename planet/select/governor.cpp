@@ -272,6 +272,7 @@ Demands demandsOf(Governed& result, const GovernorSample& sample, double elapsed
             result.binds = budget;
             result.use = cost / limit;
         }
+        result.uses[b] = cost / limit;
         result.governs = true;
         all.largest.floor = std::max(all.largest.floor, demand.floor);
         const bool isReading = budget == GovernorBudget::Reading;
@@ -367,7 +368,10 @@ Governed govern(const GovernorState& before, const GovernorSample& sample, const
     state.sinceRiseS = next > x ? 0 : std::min(state.sinceRiseS + elapsedS, longWayS);
     state.sinceFallS = next < x ? 0 : std::min(state.sinceFallS + elapsedS, longWayS);
     // A τ that stays keeps its bits.
-    if (next != x || measured(sample.tauPx) == 0) result.tauPx = std::exp(next);
+    if (next != x || measured(sample.tauPx) == 0) {
+        const double limitPx = next == rules.leastX ? settings.leastTauPx : settings.mostTauPx;
+        result.tauPx = lnTauOf(limitPx, -mostLn) == next ? limitPx : std::exp(next);
+    }
     return result;
 }
 

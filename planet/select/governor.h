@@ -149,7 +149,8 @@ struct Governed {
     GovernorBudget binds = GovernorBudget::CpuTime;  // needs the largest τ
     double use =
         0;  // of the budget that binds: times are medians of three frames, and read bytes means of half a second
-    GovernorLimit limit = GovernorLimit::None;  // without it, τ would be smaller or larger
+    std::array<double, governorBudgetCount> uses{};  // of all budgets; 0: off or not measured
+    GovernorLimit limit = GovernorLimit::None;       // without it, τ would be smaller or larger
 };
 
 // Chooses the τ of the next frame. Settings out of range are clamped, and those that are no number are the defaults.

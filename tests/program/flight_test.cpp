@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <set>
+#include <string>
+
 #include "app/flight/flight_record.h"
 #include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
@@ -87,6 +91,38 @@ tab Paging; slide paging/Latency 0.3; record; expect shown "flight/flight 2"
     EXPECT_THAT(ran.output, HasSubstr("frames differ"));
     ran = runWorldy(folder, two + " hills.pgm");
     EXPECT_EQ(ran.exitCode, 2);
+}
+
+// The window moves the tolerance by a budget; the recording holds what it chose, and a replay follows no budget.
+TEST_F(FlightTest, WhatABudgetChoseIsRecordedAndReplayedExactly) {
+    std::ofstream(folder / "config/worldy/settings.toml", std::ios::app)
+        << "[budget]\ntriangles = 20000\nleast_tau_px = 0.2\n";
+    drive(R"sh(
+settle
+tab Flight; click flight/Record; expect shown "flight/Stop and save"
+point viewport/picture 0.4 0.3
+for i in 1 2 3 4 5 6 7 8; do xdotool click 4; frames 4; done
+expect counts recorded -gt 40
+click "flight/Stop and save"; expect hidden "flight/Stop and save"
+click "flight/flight 1"; click flight/Replay; expect shown "flight/End replay"
+expect counts replayed -gt 30
+counts different -eq 0 || echo "$(counter different) frames differ"
+)sh");
+    const FlightRecord record = loadFlightRecord(folder / "config/worldy/flights/flight 1.flight").value();
+    std::set<std::string> taus;
+    for (const FlightFrame& frame : record.frames) {
+        for (const CalledInFlight& call : frame.calls) {
+            for (const std::string& setting : call.settings) {
+                if (setting.starts_with("lod.tau_px=")) taus.insert(setting);
+            }
+        }
+    }
+    EXPECT_GT(taus.size(), 5u);
+    const Ran ran = runWorldy(folder, "replay 'config/worldy/flights/flight 1.flight'");
+    EXPECT_EQ(ran.exitCode, 0) << ran.output << ran.errors;
+    EXPECT_THAT(ran.output, HasSubstr("exact: every frame matches the recording"));
+    // The user's own tolerance is saved.
+    EXPECT_THAT(contentOf(folder / "config/worldy/settings.toml"), HasSubstr("tau_px = 1\n"));
 }
 
 }  // namespace

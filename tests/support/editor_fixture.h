@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/scene/governing.h"
 #include "app/trace/trace_what_if_job.h"
 #include "planet/planet.h"
 #include "planet/planet_tools.h"
@@ -25,7 +26,7 @@ public:
     explicit EditorFixture(std::unique_ptr<planet::Planet> planet) : planet_(std::move(planet)) {}
 
     // Flies towards the ground over some frames, a sixtieth of a second each.
-    void fly(const ViewSettings& settings, int frames) {
+    void fly(ViewSettings settings, int frames) {
         planet::LodSettings lod = planet::suddenLod();
         lod.tauPx = settings.lod.tauPx;
         lod.hysteresis = settings.lod.hysteresis;
@@ -36,6 +37,7 @@ public:
             pose_.pitchDeg = -90 + 60 * share;
             view_ = planet::viewFromPose(pose_, planet_->tree().shape.radiusM, 1.05, 1280, 720);
             const auto upload = [](std::uint32_t, planet::StepsView) {};
+            lod.tauPx = settings.lod.tauPx;
             if (frame + 1 == frames)
                 planet_->settle(view_, lod, upload, 60);
             else
@@ -48,6 +50,10 @@ public:
             stats_.frameMs = 16.7;
             stats_.drawCpuMs = 2 + frame % 3;
             stats_.panelsMs = 1;
+            stats_.render.chunksMs = 2 + 2e-5 * static_cast<double>(stats_.selection.triangles());
+            stats_.tauPx = lod.tauPx;
+            governTau(governing_, &stats_, *planet_, 1.0 / 60, settings);
+            stats_.budget = governing_.use;
             history_.push_back({timeS_, stats_});
             recordFrame();
         }
@@ -170,6 +176,7 @@ private:
     planet::CameraPose pose_{.latitudeDeg = 28, .longitudeDeg = 86, .altitudeM = 4e6};
     planet::View view_;
     planet::LodChanges changes_;
+    Governing governing_;
     FrameStats stats_;
     std::deque<ui::FrameSample> history_;
     FrameTimeline timeline_;

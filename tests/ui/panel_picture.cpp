@@ -1,7 +1,8 @@
 // Draws one panel into a PNG, without a window:
-//     panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [click=ITEM]
+//     panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [governed] [click=ITEM]
 // To look at what a change does to a panel. PANEL is a key of app/settings/panel_list.h, as "quadtree"; with
-// failing some blocks cannot be read; ITEM is what ui/kit/item_map.h calls it, and is clicked before.
+// failing some blocks cannot be read, with governed τ follows budgets; ITEM is what ui/kit/item_map.h calls it, and is
+// clicked before.
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
@@ -39,11 +40,10 @@ ImVec2 middleOf(const std::vector<ui::ItemPlace>& items, std::string_view name) 
 }
 
 void drawFrames(const ui::EditorView& view, const PanelInfo& panel, int width, int height,
-                std::string_view clicked) {
+                std::string_view clicked, ViewSettings settings) {
     std::vector<ui::ItemPlace> items;
     ui::PanelStates states;
     if (!view.settings.presets.empty()) states.presets.selected = view.settings.presets.front().name;
-    ViewSettings settings;
     ui::Commands commands;
     ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     // Some frames until what sizes itself has done so.
@@ -68,18 +68,21 @@ int run(int argumentCount, char** arguments) {
     const PanelInfo* panel = argumentCount > 4 ? panelNamed(arguments[2]) : nullptr;
     int width = 0, height = 0;
     if (!panel || std::sscanf(arguments[3], "%dx%d", &width, &height) != 2) {
-        std::fputs("panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [click=ITEM]\n",
-                   stderr);
+        std::fputs(
+            "panel_picture FILE.chk PANEL WIDTHxHEIGHT OUT.png [light] [failing] [governed] [click=ITEM]\n",
+            stderr);
         return 2;
     }
     constexpr std::string_view click = "click=";
     bool light = false;
     std::string_view clicked;
     planet::PagingSettings paging;
+    ViewSettings settings;
     for (const std::string_view extra :
          std::span(arguments + 5, static_cast<std::size_t>(argumentCount - 5))) {
         light |= extra == "light";
         if (extra == "failing") paging.badDisk.failureRate = 0.5;
+        if (extra == "governed") settings.budget = {.gpuMs = 8, .triangles = 600'000, .memoryMB = 64};
         if (extra.starts_with(click)) clicked = extra.substr(click.size());
     }
     auto planet = planet::Planet::open(arguments[1], paging);
@@ -91,7 +94,7 @@ int run(int argumentCount, char** arguments) {
         return 2;
     }
     test::EditorFixture fixture(std::move(*planet));
-    fixture.fly({}, 120);
+    fixture.fly(settings, 120);
     const tests::TemporaryFolder folder;
     fixture.trace(folder / "made engine.lodtrace");
     fixture.log_.push_back({LogLevel::Info, "14:03:22", "Open: earth.chk, 5.1 MiB on disk, 7 levels"});
@@ -104,7 +107,7 @@ int run(int argumentCount, char** arguments) {
     ui::applyTheme(light ? Theme::Light : Theme::Dark, 1);
     target->bind();
     glViewport(0, 0, width, height);
-    drawFrames(fixture.view(), *panel, width, height, clicked);
+    drawFrames(fixture.view(), *panel, width, height, clicked, settings);
     const auto written = writePicture({width, height, target->readRgb()}, arguments[4]);
     ImGui_ImplOpenGL3_Shutdown();
     ImGui::DestroyContext();

@@ -21,6 +21,17 @@ TEST(FrameReport, totalsOfBlocksAreGivenPerKind) {
     EXPECT_EQ(report["bytes_read"], 123);
 }
 
+TEST(FrameReport, budgetsAreGivenIfOneIsOn) {
+    FrameStats stats;
+    stats.tauPx = 3;
+    EXPECT_FALSE(statsJson(stats).contains("tau_px"));
+    stats.budget = {.isOn = true, .isMeasured = true, .binds = planet::GovernorBudget::GpuTime, .use = 0.9};
+    const nlohmann::ordered_json report = statsJson(stats);
+    EXPECT_EQ(report["tau_px"], 3);
+    EXPECT_EQ(report["budget_use"], 0.9);
+    EXPECT_EQ(report["budget_binds"], "gpu_time");
+}
+
 }  // namespace
 
 }  // namespace worldy

@@ -106,7 +106,7 @@ TEST(Settings, EveryFieldOfTheViewAndTheWorkspaceStandsInTheTable) {
     for (const Field& field : fieldsOf(counted))
         EXPECT_TRUE(names.insert(field.name()).second) << field.name();
     EXPECT_EQ(names.size(), 2u + 13 + 5 + 8 + 5 + 13 + 15 + 14 + 8 + 5 + 5 + 11 + 7 + 14 + 2 * panelCount +
-                                dockCount + 3 + 4 + 3);
+                                dockCount + 3 + 4 + 3 + 8);
     for (std::size_t i = 0; i < names.size(); ++i) {
         Settings one;
         const std::vector<Field> fields = fieldsOf(one);
@@ -266,7 +266,7 @@ TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
 TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     Settings here, there = allOther();
     const std::vector<SettingDifference> all = differences(here, there);
-    EXPECT_EQ(all.size(), 107u);
+    EXPECT_EQ(all.size(), 115u);
     EXPECT_THAT(differences(there, there), IsEmpty());
     there = here;
     there.view.lod.tauPx = 3.5;

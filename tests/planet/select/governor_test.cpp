@@ -245,13 +245,13 @@ TEST(Governor, keepsTauWithinItsLimitsAndTellsSo) {
     Plant cheap{.settings = {.budget = {.triangles = 1e9}, .leastTauPx = 0.75}};
     cheap.run(10);
     EXPECT_EQ(cheap.last.limit, GovernorLimit::LeastTau);
-    EXPECT_NEAR(cheap.tauPx, 0.75, 1e-12);
+    EXPECT_EQ(cheap.tauPx, 0.75);
     EXPECT_LT(cheap.last.use, 0.1);
 
     Plant dear{.settings = {.budget = {.triangles = 1000}, .mostTauPx = 9}};
     dear.run(2);
     EXPECT_EQ(dear.last.limit, GovernorLimit::MostTau);
-    EXPECT_NEAR(dear.tauPx, 9, 1e-12);
+    EXPECT_EQ(dear.tauPx, 9);
     EXPECT_GT(dear.last.use, 1);
 
     Plant between{.settings = {.budget = {.triangles = 4e5}}};

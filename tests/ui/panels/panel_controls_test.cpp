@@ -68,6 +68,25 @@ const T* only(const Commands& commands) {
 constexpr std::array ownPanels = {PanelId::Lod,   PanelId::Paging, PanelId::Seams, PanelId::Surface,
                                   PanelId::Frame, PanelId::Log,    PanelId::Sweep};
 
+TEST_F(PanelControls, aBudgetTakesTheToleranceFromTheUser) {
+    openPlanet();
+    click(PanelId::Lod, "Tolerance τ");
+    const double clickedPx = settings_.lod.tauPx;
+    EXPECT_NE(clickedPx, 2);
+    settings_.budget.triangles = 600'000;
+    stats_.budget = {
+        .isOn = true, .isMeasured = true, .binds = planet::GovernorBudget::Triangles, .use = 0.9};
+    stats_.budget.uses[2] = 0.9;
+    window_.movePointer({-1, -1});
+    settings_.lod.tauPx = 2;
+    click(PanelId::Lod, "Tolerance τ");
+    EXPECT_EQ(settings_.lod.tauPx, 2);
+    // Without one, its limits cannot be changed.
+    settings_.budget = {};
+    click(PanelId::Lod, "Least τ");
+    EXPECT_EQ(settings_.budget, BudgetSettings{});
+}
+
 TEST_F(PanelControls, panelsStandWithoutAPlanet) {
     for (const PanelId id : ownPanels) EXPECT_TRUE(frame(id).empty()) << static_cast<int>(id);
 }

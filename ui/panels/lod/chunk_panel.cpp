@@ -8,6 +8,8 @@
 
 #include "app/base/glossary.h"
 #include "app/base/text.h"
+#include "app/scene/frame_stats.h"
+#include "app/scene/governing.h"
 #include "app/scene/overlay_colours.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/marked_box.h"
@@ -125,7 +127,7 @@ void placeRows(const EditorView& view, const ChunkExplanation& explanation, cons
     endValues();
 }
 
-void errorRows(const ChunkExplanation& explanation) {
+void errorRows(const ChunkExplanation& explanation, const BudgetUse& budget) {
     if (!beginValues("errors")) return;
     const std::string bound = explanation.deltaGIsBound ? "at most " : "";
     valueRow("δg", bound + distanceText(static_cast<double>(explanation.deltaGM)),
@@ -153,6 +155,8 @@ void errorRows(const ChunkExplanation& explanation) {
              over ? &palette().warning : nullptr);
     valueRow(tauSymbol(), fmt::format("{:.3g} px", explanation.tauPx),
              "Tolerance from the LOD panel: a chunk is fine enough while ε <= τ.");
+    if (budget.isOn)
+        valueRow(terms::budgetBinds.name, bindsText(budget, tauSymbol()), terms::budgetBinds.meaning);
     valueRow("d_m", distanceText(explanation.switchDistanceM),
              "Switch distance d_m = δc K, K = W / (2 τ tan(Hfov / 2)): a nearer chunk must be split.");
     endValues();
@@ -392,7 +396,7 @@ void chunkPanel(const EditorView& view, ChunkPanelState& state, Commands& comman
     markedBox(whyText(explanation), packed(asVector(stateColour(explanation.state))));
     buttons(explanation.id, commands);
     drawingRows(view, explanation, node);
-    if (node && section("Error")) errorRows(explanation);
+    if (node && section("Error")) errorRows(explanation, view.frames.stats.budget);
     if (section("Position")) placeRows(view, explanation, node);
     if (section("Source"))
         sourceReadings("source", view.sources, view.sources.selected, "The source is being asked...",

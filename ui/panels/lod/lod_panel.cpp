@@ -20,6 +20,7 @@
 #include "ui/model/font_symbols.h"
 #include "ui/model/history.h"
 #include "ui/model/key_names.h"
+#include "ui/panels/lod/budget_section.h"
 
 namespace worldy::ui {
 
@@ -28,8 +29,12 @@ namespace {
 // Length of the list of thrashing chunks.
 constexpr std::size_t thrashingShown = 6;
 
-void toleranceControls(const SettingControls& control, planet::LodSettings& lod) {
+void toleranceControls(const SettingControls& control, ViewSettings& settings) {
+    planet::LodSettings& lod = settings.lod;
+    const char* const governed = whyTauIsGoverned(settings);
+    beginGrey(governed != nullptr, governed ? governed : "");
     control(lod.tauPx);
+    endGrey();
     control(lod.hysteresis);
     control(lod.maxLevel);
     control(lod.morph);
@@ -251,12 +256,13 @@ void lodPanel(const EditorView& view, ViewSettings& settings, Commands& commands
     const SettingControls control(settings);
     planet::LodSettings& lod = settings.lod;
     if (section("Level of detail")) {
-        toleranceControls(control, lod);
+        toleranceControls(control, settings);
         metricControl(view, control, lod);
         cullingControls(view, control, lod, commands);
         if (view.planet) chunkSizeControl(view, commands);
         formulas(view, lod.tauPx);
     }
+    if (section("Budget")) budgetSection(view, control, settings);
     if (!view.planet) return emptyState("No planet is open. Open one to see its level-of-detail statistics.");
     if (section("Drawn")) drawnValues(view, lod.tauPx);
     if (section("By level")) levelBars(*view.planet);

@@ -11,6 +11,7 @@
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/kit/exports.h"
+#include "ui/model/figures.h"
 #include "ui/panels/measure/ruler_profile.h"
 
 namespace worldy::ui {
