@@ -102,9 +102,10 @@ void followFade(GovernorState& state, double x, double elapsedS, const Rules& ru
         return;
     }
     state.partS = std::min(state.partS + elapsedS, 2 * rules.fadeS);
-    for (; state.partS >= partS; state.partS -= partS) {
+    while (state.partS >= partS) {
         std::shift_right(state.parts.begin(), state.parts.end(), 1);
         state.parts[0] = {state.mergingLnTau, state.shownLnTau};
+        state.partS -= partS;
     }
     const auto lower = [](const GovernorState::Part& a, const GovernorState::Part& b) {
         return GovernorState::Part{std::min(a.mergingLnTau, b.mergingLnTau),

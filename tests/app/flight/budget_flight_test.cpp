@@ -21,7 +21,6 @@
 #include "planet/bake/bake.h"
 #include "planet/base/percentile.h"
 #include "planet/measure/lod_changes.h"
-#include "planet/planet_tools.h"
 #include "planet/source/height_source.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,6 @@
 #include "ui/panels/lod/budget_section.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +21,6 @@ namespace worldy::ui {
 namespace {
 
 using planet::GovernorBudget;
-using planet::GovernorLimit;
 
 constexpr std::array<const char*, planet::governorBudgetCount> costMeanings = {
     "CPU time of a frame, median of three frames, and its budget.",
