@@ -29,6 +29,14 @@ std::string joined(std::span<const std::string_view> names) {
     return text;
 }
 
+// Returns the name of a choice. Features that are on, off or automatic were flags once: recordings and settings files of that
+// time say true or false.
+std::string choiceName(const toml::node& node) {
+    const toml::value<bool>* const flag = node.as_boolean();
+    const std::string text = flag ? (flag->get() ? "true" : "false") : node.value_or(std::string());
+    return text == "true" ? "on" : text == "false" ? "off" : text;
+}
+
 struct ReadField {
     const fs::path& file;
     const std::string name;
@@ -58,8 +66,7 @@ struct ReadField {
         return readText(file, name, node).map([&](const std::string& v) { *text.value = v; });
     }
     Result<void> operator()(const Choice& choice) const {
-        const std::string text = node.value_or(std::string());
-        const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+        const auto found = std::find(choice.names.begin(), choice.names.end(), choiceName(node));
         if (found == choice.names.end()) {
             return wrong(node, fmt::format("{} is {}; expected one of {}", name, shownValue(node),
                                            joined(choice.names)));

@@ -20,6 +20,7 @@
 #include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/device/software_renderer.h"
 #include "planet/gl/device/vertex_inputs.h"
+#include "planet/gl/draw/captured_draw.h"
 #include "planet/gl/draw/chunk_grid.h"
 #include "planet/gl/draw/chunk_instances.h"
 #include "planet/gl/draw/chunk_programs.h"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "planet/base/result.h"
-#include "planet/gl/draw/captured_draw.h"
 #include "planet/gl/draw/projection.h"
 #include "planet/gl/draw/render_counters.h"
 #include "planet/gl/draw/render_settings.h"
@@ -30,6 +29,7 @@
 namespace planet::gl {
 
 class ChunkPrograms;
+struct CapturedDraw;  // planet/gl/draw/captured_draw.h
 
 // Selects whether a draw waits for programs that are not ready, or uses others until they are.
 enum class ShaderWait : std::uint8_t { UntilReady, Never };

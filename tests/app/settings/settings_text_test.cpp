@@ -138,6 +138,22 @@ TEST(Settings, IntegersServeAsNumbers) {
     EXPECT_EQ(loaded->view.lod.tauPx, 4);
 }
 
+// Recordings and files hold such flags, from when the feature could not be automatic.
+TEST(Settings, trueAndFalseServeAsOnAndOff) {
+    using planet::gl::FeatureUse;
+    for (const auto& [text, use] : {std::pair("true", FeatureUse::On), std::pair("false", FeatureUse::Off)}) {
+        const planet::Result<Settings> loaded =
+            settingsFromText(std::string("[surface]\ndetail = ") + text + "\n");
+        ASSERT_TRUE(loaded) << loaded.error().message;
+        EXPECT_EQ(loaded->view.surface.detail, use);
+        Settings set;
+        ASSERT_TRUE(setSetting(set, std::string("surface.detail=") + text));
+        EXPECT_EQ(set.view.surface.detail, use);
+    }
+    EXPECT_THAT(settingsErrorOf("[surface]\nsurface = true\n"),
+                HasSubstr("surface.surface is true; expected one of"));
+}
+
 TEST(Settings, WhatAFileDoesNotHoldStaysAsItWas) {
     const Settings base = allOther();
     const planet::Result<Settings> loaded = settingsFromText("[lod]\ntau_px = 4\n", "text", base);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "planet/gl/draw/captured_draw.h"
 #include "tests/planet/gl/gl_test.h"
 #include "tests/planet/gl/test_planet.h"
 
