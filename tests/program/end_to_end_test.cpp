@@ -323,7 +323,8 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
     const json report = json::parse(contentOf(folder.path() / "out.json"));
     EXPECT_NE(report["machine"]["gl_renderer"], "");
-    for (const char* part : {"lod", "dynamic", "selection", "page_in", "bake", "file_size", "colours"}) {
+    for (const char* part :
+         {"lod", "frame", "dynamic", "selection", "page_in", "bake", "file_size", "colours"}) {
         ASSERT_FALSE(report["parts"][part].empty()) << part;
         for (const json& row : report["parts"][part]) {
             EXPECT_GT(row["median"], 0) << row;
@@ -339,6 +340,12 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     }
     EXPECT_EQ(triangles["faces of 65, every leaf"], 6 * 64 * 64 * 2);
     EXPECT_LT(triangles["faces of 65, tau 1 px"], triangles["faces of 65, every leaf"]);
+    const json& frame = report["parts"]["frame"];
+    EXPECT_EQ(frame[0]["subject"], "64 x 64, as a first start has it");
+    EXPECT_EQ(frame[0]["times"]["of"], "one texture");
+    const json& dynamic = report["parts"]["dynamic"];
+    EXPECT_EQ(dynamic[0]["times"]["of"], "static");
+    EXPECT_EQ(dynamic.back()["median"], triangles["faces of 65, tau 1 px"]) << "of the static draw";
     EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "temporary"));
 
     const Ran table =

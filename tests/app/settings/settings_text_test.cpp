@@ -150,8 +150,8 @@ TEST(Settings, trueAndFalseServeAsOnAndOff) {
         ASSERT_TRUE(setSetting(set, std::string("surface.detail=") + text));
         EXPECT_EQ(set.view.surface.detail, use);
     }
-    EXPECT_THAT(settingsErrorOf("[surface]\nsurface = true\n"),
-                HasSubstr("surface.surface is true; expected one of"));
+    EXPECT_THAT(settingsErrorOf("[surface]\ncolour_mode = true\n"),
+                HasSubstr("surface.colour_mode is true; expected one of"));
 }
 
 TEST(Settings, WhatAFileDoesNotHoldStaysAsItWas) {
