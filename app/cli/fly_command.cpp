@@ -187,8 +187,7 @@ void printBudget(const Flown& flown) {
     const BudgetFigures figures = figuresOf(flown);
     fmt::print(
         "\nBudget, without the first second: {} of {} frames over budget, at most {:.1f} %; median use "
-        "{:.1f} % where tau is "
-        "above its lower limit, which it reaches in {} frames; {} chunks thrashed\n",
+        "{:.1f} % where tau is above its lower limit, which it reaches in {} frames; {} chunks thrashed\n",
         figures.over, figures.frames, 100 * figures.mostUse, 100 * figures.medianUse, figures.atLowerLimit,
         flown.thrash);
 }

@@ -74,7 +74,7 @@ Result<BakedTile> bakeTile(const BakeContext& bake, const TreeUnit& unit, BakeSc
 // positions are left in scratch.geometry.
 std::vector<double> measureUnit(const PlanetShape& shape, const TreeUnit& unit, BakeScratch& scratch);
 
-// What is known of a chunk's errors before its children are merged, metres.
+// The errors of a chunk that are known before its children are merged, metres.
 struct ChunkErrors {
     std::optional<double> deltaGM;  // measured from the children's heights if it is not known
     double finestDistanceM = 0;     // from the finest samples two or more levels below it

@@ -84,7 +84,7 @@ PLANET_CPU_CLONES double largestSquaredOnAnyCell(const MeasuredTile& tile, std::
     return largestSquaredOnCell(tile, column, row, cells);
 }
 
-// The same for the smallest cells, of which there are most, in rows of constant length.
+// Does the same for the smallest cells, in rows of constant length, because most cells are the smallest ones.
 PLANET_CPU_CLONES double largestSquaredOnSmallCell(const MeasuredTile& tile, std::size_t column,
                                                    std::size_t row) {
     return largestSquaredOnCell(tile, column, row, 4);

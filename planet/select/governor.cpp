@@ -253,7 +253,7 @@ double readFall(GovernorState& state, double use, double elapsedS, const Rules& 
     return use > std::exp(rules.lnCeiling) ? 0 : state.readFallPerS;
 }
 
-// What all budgets together allow.
+// The demands of all budgets together.
 struct Demands {
     Demand largest;
     double fallPerS = std::numeric_limits<double>::infinity();
@@ -278,7 +278,7 @@ Demands demandsOf(Governed& result, const GovernorSample& sample, double elapsed
         all.largest.floor = std::max(all.largest.floor, demand.floor);
         const bool isReading = budget == GovernorBudget::Reading;
         if (isReading) all.fallPerS = readFall(state, cost / limit, elapsedS, rules);
-        // What a fall of τ has read is over soon.
+        // A fall of τ reads blocks only for a short time, so it must not raise τ again.
         if (isReading && state.sinceFallS <= 2 * meanS) continue;
         all.largest.ceiling = std::max(all.largest.ceiling, demand.ceiling);
         all.largest.middle = std::max(all.largest.middle, demand.middle);

@@ -17,13 +17,13 @@
 //
 // k is counted in the selection (exponentOf). e is the elasticity of a time with respect to the triangles, [0.4, 1], by
 // least squares over the changes of both in the last half minute; the rest of a time does not follow τ. For counts e is 1.
-// So each sample says by which factor τ must change, and one change answers a step of the cost. With a wrong exponent the
-// error shrinks by the factor |1 - true / assumed| each time the cost responds, so it converges if the true exponent is
-// below twice the assumed one.
+// So each sample gives the factor by which τ must change, and one change of τ corrects a step of the cost. With a wrong
+// exponent the error shrinks by the factor |1 - true / assumed| each time the cost responds, so it converges if the true
+// exponent is below twice the assumed one.
 //
 // A cost belongs to an older τ (Smith, "Closer control of loops with dead time", 1957). Two bounds of it are followed,
 // the smallest and the largest τ that a cost can belong to; τ rises by the smaller one and falls by the larger one, so
-// that what is already on its way is not asked for again:
+// that a change that has been made, but is not yet measured, is not made again:
 //   - A chunk merges when its parent's ε is at most τ (1 - LodSettings::hysteresis). A τ that rises after a fall first
 //     crosses that backlash.
 //   - Chunks morph onto their parents before they merge (lod_select.h). That takes fadeS for each level, that is for each
@@ -43,8 +43,8 @@
 // A camera that flies towards detail makes the level grow. That growth, which the triangles tell without noise, is foreseen
 // by 0.1 s, and by 0.3 s for creeping.
 //
-// Of several budgets, the one that needs the largest τ binds. A step of the cost is answered within fadeS for each doubling
-// of τ that it needs, and the age of the cost.
+// If several budgets are on, the one that needs the largest τ binds. After a step of the cost, the cost is back within its
+// budget after the age of its measurement and one fadeS for each doubling of τ that it needs.
 #pragma once
 
 #include <array>
@@ -83,7 +83,7 @@ struct GovernorSettings {
     double risePerS =
         0.15;  // most of ln τ while below the ceiling, >= 0; larger: more chunks change back and forth
     double fallPerS = 0.2;  // of ln τ, > 0; larger: sharp sooner, but more chunks change back and forth
-    // Those of LodSettings, or 0 for an engine without morphs or hysteresis.
+    // These follow LodSettings (lodHysteresis is its hysteresis). An engine without morphs or hysteresis sets them to 0.
     double fadeS = LodSettings{}.fadeS;
     double morphRange = LodSettings{}.morphRange;
     double lodHysteresis = LodSettings{}.hysteresis;

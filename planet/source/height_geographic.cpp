@@ -54,7 +54,7 @@ struct CubeRow {
     const double* vScale;
 };
 
-// Which of the face's axes lies along an axis of the planet.
+// Names the axis of a face that lies along an axis of the planet.
 enum class Along { Normal, U, V };
 
 // Fills a row of places. X, Y and Z say which of the face's axes lie along the planet's. This repeats cubePoint and

@@ -245,7 +245,7 @@ struct BandTaps {
     bool areFourByFour(std::size_t sample) const {
         return stretchRows == 1 && taps.stretchColumns[sample] == 1 && haveAllRows(sample);
     }
-    // Whether they are more, but few enough for local memory.
+    // Returns whether there are more taps, but few enough for local memory.
     bool areFew(std::size_t sample) const {
         return taps.stretchColumns[sample] != 0 && 4 * taps.columnGroups[sample] <= fewTaps &&
                rowTaps() <= fewTaps && haveAllRows(sample) && !areFourByFour(sample);
@@ -280,7 +280,7 @@ PLANET_CPU_CLONES void addFourByFour(const BandTaps& band, std::size_t begin, st
 
 constexpr std::size_t batchSize = 16;  // samples whose weights are computed at once
 
-// Computes the weights of `taps` taps of each of up to batchSize samples, one sample after the other. The same as
+// Computes the weights of `taps` taps of each of up to batchSize samples, one sample after the other. Gives the same as
 // kernelWeights, with the samples as the inner loop: a sum over the taps of one sample is a chain of additions.
 PLANET_ALWAYS_INLINE void batchWeights(const float* positions, const float* stretches, std::size_t count,
                                        std::size_t taps, float* weights) {

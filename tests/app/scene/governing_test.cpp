@@ -49,7 +49,7 @@ TEST_F(GovernedTau, followsABudgetAndGivesTheUsersTauBack) {
     EXPECT_TRUE(governing_.use.isMeasured);
     EXPECT_EQ(governing_.use.limit, GovernorLimit::MostTau);
     EXPECT_EQ(governing_.ownTauPx, 3);
-    // What the user sets meanwhile is kept for later.
+    // A τ that the user sets while a budget is on is kept, and returns when the budget is turned off.
     settings_.lod.tauPx = 5;
     govern();
     EXPECT_EQ(settings_.lod.tauPx, 20);

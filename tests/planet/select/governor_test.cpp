@@ -59,7 +59,7 @@ private:
     std::vector<Group> groups_;
 };
 
-// What an engine's frames cost, frame by frame.
+// Simulates an engine whose frames have planted costs.
 struct Plant {
     GovernorSettings settings{};
     Engine engine{};
