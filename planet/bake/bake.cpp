@@ -5,13 +5,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <iterator>
-#include <mutex>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 
 #include "planet/bake/bake_reuse.h"
@@ -19,6 +15,7 @@
 #include "planet/bake/bake_tree.h"
 #include "planet/bake/colour_bake.h"
 #include "planet/bake/level_images.h"
+#include "planet/bake/subtree_merging.h"
 #include "planet/base/atomic_file.h"
 #include "planet/base/little_endian.h"
 #include "planet/base/parallel.h"
@@ -31,53 +28,44 @@ namespace planet {
 
 namespace {
 
-// Takes baked units in quadtree order, appends their blocks to the file, and merges four siblings as soon as
-// they are complete, so it keeps at most three chunks per level. It holds back the chunks whose tight metric
-// is not known yet, because a unit under them is narrower than their cells, and the siblings of such chunks. It
-// holds back the same chunks if it knows their tight metric from an earlier bake, so that the order of the blocks
-// does not depend on what is copied.
-class Assembler {
+// Takes baked units in quadtree order, and appends their blocks and those of the merged chunks above them to the file.
+// Whatever comes from an earlier bake is held back as if it did not, so that the order of the blocks does not depend on
+// what is copied.
+class Assembler final : private SubtreeSink {
 public:
     Assembler(const BakeContext& bake, AtomicFile& file)
         : bake_(bake),
           file_(file),
-          groups_(static_cast<std::size_t>(deepestLevelOf(bake.shape)) + 1),
-          above_(groups_.size()),
-          held_(groups_.size()) {}
+          stack_(bake, *this),
+          held_(static_cast<std::size_t>(deepestLevelOf(bake.shape)) + 1) {}
 
     // Says what the tight metric of a chunk is, before the first unit under it is added.
-    void know(const UnchangedChunk& chunk) { above_[chunk.id.level].deltaTightM = chunk.deltaTightM; }
+    void know(const UnchangedChunk& chunk) { stack_.know(chunk.id, chunk.deltaTightM); }
 
     Result<void> add(BakedTile&& tile) {
-        const std::uint64_t shift = file_.size() - provisionalOrigin;
-        if (tile.root.entry.children.exists()) tile.root.entry.children.offset += shift;
+        const std::uint64_t offset = file_.size();
         TRY(file_.append(tile.blocks));
-        const auto coarsest =
-            static_cast<std::size_t>(coarsestLevelOfTiles(tile.deepestUnitLevel, bake_.shape));
-        for (std::size_t level = 0; level < coarsest; ++level) above_[level].isUnknown = true;
-        for (std::size_t i = 0; i < tile.offAboveM.size(); ++i) {
-            double& offM = above_[coarsest + i].offM;
-            offM = std::max(offM, tile.offAboveM[i]);
-        }
-        return addChunk({std::move(tile.root), false, {}});
+        return stack_.push(subtreeOf(std::move(tile), offset));
     }
 
     // Bakes the chunks that were held back, after all units are added. Calls goOn before each block is read,
     // from one thread at a time.
     Result<void> finish(int threads, const std::function<bool()>& goOn) {
+        for (Subtree& root : stack_.takeWaiting()) {
+            if (!root.isLater) hold(std::move(root));
+        }
+        BakeScratch scratch;
         for (std::size_t level = held_.size(); level-- > 0;) {
-            std::vector<Chunk>& chunks = held_[level];
-            std::sort(chunks.begin(), chunks.end(), [](const Chunk& a, const Chunk& b) {
-                return indexInQuadtreeOrder(a.baked.id) < indexInQuadtreeOrder(b.baked.id);
-            });
+            std::vector<HeldChunk>& chunks = held_[level];
+            sortInQuadtreeOrder(chunks);
             TRY(search(chunks, threads, goOn));
             if (level == 0) break;
             for (std::size_t i = 0; i < chunks.size(); i += quadrantCount) {
-                TRY_ASSIGN(auto parent, merge(std::span(chunks).subspan(i).first<quadrantCount>(), 0));
-                const auto known = knownLater_.find(parent.id);
-                const bool isKnown = known != knownLater_.end();
-                held_[level - 1].push_back(
-                    {std::move(parent), true, isKnown ? std::optional(known->second) : std::nullopt});
+                HeldParent merged = mergeHeld(bake_, std::span(chunks).subspan(i).first<quadrantCount>(),
+                                              file_.size(), scratch);
+                TRY(file_.append(merged.block));
+                const std::optional<float> known = stack_.known(merged.parent.id);
+                held_[level - 1].push_back({std::move(merged.parent), true, known});
             }
             chunks = {};
         }
@@ -87,100 +75,22 @@ public:
     const BakedChunk& root(Face face) const { return held_[0][static_cast<std::size_t>(face)].baked; }
 
 private:
-    struct Chunk {
-        BakedChunk baked;
-        bool isUnknown = false;              // its tight metric has to be searched for
-        std::optional<float> deltaTightM{};  // unless it is known from an earlier bake
-    };
-    // The siblings that have come so far.
-    struct Group {
-        std::vector<Chunk> chunks;
-        std::size_t count = 0;  // including those that finish() makes
-        bool isHeld = false;
-    };
-    // The chunk of a level whose units are being added.
-    struct Above {
-        double offM = 0;  // from the finest samples of its units
-        bool isUnknown = false;
-        std::optional<float> deltaTightM{};  // from an earlier bake
-    };
-
-    Result<void> addChunk(Chunk&& chunk) {
-        const ChunkId id = chunk.baked.id;
-        if (id.level == 0) {
-            held_[0].push_back(std::move(chunk));
-            return {};
-        }
-        Group& group = groups_[id.level];
-        group.isHeld = group.isHeld || chunk.isUnknown;
-        group.chunks.push_back(std::move(chunk));
-        return countSibling(id);
+    Result<void> takeBlock(const Subtree&, std::span<const std::byte> block) override {
+        return file_.append(block);
     }
 
-    // Counts a chunk that finish() makes.
-    Result<void> addLater(const ChunkId& id) {
-        if (id.level == 0) return {};
-        groups_[id.level].isHeld = true;
-        return countSibling(id);
+    void hold(Subtree&& subtree) override {
+        const std::uint64_t offset = subtree.firstTile;
+        held_[subtree.root.id.level].push_back(heldChunk(std::move(subtree), offset));
     }
 
-    Result<void> countSibling(const ChunkId& id) {
-        Group& group = groups_[id.level];
-        if (++group.count < quadrantCount) return {};
-        Group whole = std::exchange(group, {});
-        const Above above = std::exchange(above_[id.level - 1u], {});
-        if (!whole.isHeld) {
-            TRY_ASSIGN(auto parent, merge(std::span(whole.chunks).first<quadrantCount>(),
-                                          above.isUnknown ? 0 : above.offM));
-            if (above.deltaTightM) parent.entry.deltaTightM = *above.deltaTightM;
-            return addChunk({std::move(parent), above.isUnknown, above.deltaTightM});
-        }
-        if (above.deltaTightM) knownLater_.emplace(parentOf(id), *above.deltaTightM);
-        std::move(whole.chunks.begin(), whole.chunks.end(), std::back_inserter(held_[id.level]));
-        return addLater(parentOf(id));
-    }
-
-    Result<BakedChunk> merge(std::span<Chunk, quadrantCount> children, double finestDistanceM) {
-        std::array<BakedChunk, quadrantCount> baked;
-        for (std::size_t q = 0; q < baked.size(); ++q) baked[q] = std::move(children[q].baked);
-        std::vector<std::byte> block;
-        BakedChunk parent = mergeChildren(bake_, parentOf(baked[0].id), baked, {{}, finestDistanceM},
-                                          file_.size(), scratch_, block);
-        TRY(file_.append(block));
-        return parent;
-    }
-
-    // Raises the tight metric of those of a level's chunks that need it to their distance from the finest
-    // samples.
-    Result<void> search(std::vector<Chunk>& chunks, int threads, const std::function<bool()>& goOn) {
-        std::vector<BakedChunk*> unknown;
-        for (Chunk& chunk : chunks) {
-            if (chunk.deltaTightM)
-                chunk.baked.entry.deltaTightM = *chunk.deltaTightM;
-            else if (chunk.isUnknown)
-                unknown.push_back(&chunk.baked);
-        }
-        if (unknown.empty()) return {};
-        TRY_ASSIGN(const auto written, writtenSoFar(unknown[0]->entry.minStep));
+    Result<void> search(std::vector<HeldChunk>& chunks, int threads, const std::function<bool()>& goOn) {
+        if (chunks.empty()) return {};
+        TRY_ASSIGN(const auto written, writtenSoFar(chunks[0].baked.entry.minStep));
         const ReadChildren readChildren = [&](const ChunkData& parent) {
             return written.readChildren(parent.id, parent.children, parent.heights);
         };
-        std::mutex mutex;  // guards outcome; held during calls of goOn
-        Result<void> outcome;
-        const auto mayGoOn = [&] {
-            const std::lock_guard lock(mutex);
-            if (outcome && !goOn()) outcome = cancelled();
-            return outcome.has_value();
-        };
-        parallelFor(threads, unknown.size(), [&](std::size_t i) {
-            ChunkEntry& entry = unknown[i]->entry;
-            const Result<double> offM =
-                searchFinestDistance(bake_.shape, dataOf(*unknown[i]), readChildren, mayGoOn);
-            const std::lock_guard lock(mutex);
-            if (!offM && outcome) outcome = tl::unexpected(offM.error());
-            if (outcome) entry.deltaTightM = tightMetric(*offM, entry.deltaTightM, entry.deltaCM);
-        });
-        return outcome;
+        return searchTightMetrics(bake_, chunks, threads, readChildren, goOn);
     }
 
     // Opens the unfinished file, with a temporary header. anyStep: a step of the planet.
@@ -194,24 +104,10 @@ private:
             [this](std::uint64_t offset, std::span<std::byte> out) { return file_.read(offset, out); });
     }
 
-    static ChunkData dataOf(const BakedChunk& chunk) {
-        const ChunkEntry& entry = chunk.entry;
-        return {chunk.id,
-                entry.deltaCM,
-                entry.deltaTightM,
-                entry.minStep,
-                entry.maxStep,
-                entry.children,
-                Steps(std::span<const std::int32_t>(chunk.heights))};
-    }
-
     const BakeContext& bake_;
     AtomicFile& file_;
-    std::vector<Group> groups_;                      // by level
-    std::vector<Above> above_;                       // by level
-    std::vector<std::vector<Chunk>> held_;           // by level; the roots are at level 0
-    std::unordered_map<ChunkId, float> knownLater_;  // the tight metrics of chunks that finish() makes
-    BakeScratch scratch_;
+    SubtreeStack stack_;                        // counts tiles by the offset of their first block
+    std::vector<std::vector<HeldChunk>> held_;  // by level; the roots are at level 0
 };
 
 // Reports the progress a few times per second.
