@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "planet/bake/bake_finish.h"
 #include "planet/bake/bake_reuse.h"
 #include "planet/bake/bake_tile.h"
 #include "planet/bake/bake_tree.h"
@@ -56,13 +57,13 @@ public:
         }
         BakeScratch scratch;
         for (std::size_t level = held_.size(); level-- > 0;) {
-            std::vector<HeldChunk>& chunks = held_[level];
+            std::vector<DeferredChunk>& chunks = held_[level];
             sortInQuadtreeOrder(chunks);
             TRY(search(chunks, threads, goOn));
             if (level == 0) break;
             for (std::size_t i = 0; i < chunks.size(); i += quadrantCount) {
-                HeldParent merged = mergeHeld(bake_, std::span(chunks).subspan(i).first<quadrantCount>(),
-                                              file_.size(), scratch);
+                DeferredParent merged = mergeDeferred(
+                    bake_, std::span(chunks).subspan(i).first<quadrantCount>(), file_.size(), scratch);
                 TRY(file_.append(merged.block));
                 const std::optional<float> known = stack_.known(merged.parent.id);
                 held_[level - 1].push_back({std::move(merged.parent), true, known});
@@ -72,7 +73,8 @@ public:
         return {};
     }
 
-    const BakedChunk& root(Face face) const { return held_[0][static_cast<std::size_t>(face)].baked; }
+    // Returns the roots of the faces, in their order.
+    std::vector<DeferredChunk> takeRoots() { return std::move(held_[0]); }
 
 private:
     Result<void> takeBlock(const Subtree&, std::span<const std::byte> block) override {
@@ -81,10 +83,10 @@ private:
 
     void hold(Subtree&& subtree) override {
         const std::uint64_t offset = subtree.firstTile;
-        held_[subtree.root.id.level].push_back(heldChunk(std::move(subtree), offset));
+        held_[subtree.root.id.level].push_back(deferredChunk(std::move(subtree), offset));
     }
 
-    Result<void> search(std::vector<HeldChunk>& chunks, int threads, const std::function<bool()>& goOn) {
+    Result<void> search(std::vector<DeferredChunk>& chunks, int threads, const std::function<bool()>& goOn) {
         if (chunks.empty()) return {};
         TRY_ASSIGN(const auto written, writtenSoFar(chunks[0].baked.entry.minStep));
         const ReadChildren readChildren = [&](const ChunkData& parent) {
@@ -106,8 +108,8 @@ private:
 
     const BakeContext& bake_;
     AtomicFile& file_;
-    SubtreeStack stack_;                        // counts tiles by the offset of their first block
-    std::vector<std::vector<HeldChunk>> held_;  // by level; the roots are at level 0
+    SubtreeStack stack_;                            // counts tiles by the offset of their first block
+    std::vector<std::vector<DeferredChunk>> held_;  // by level; the roots are at level 0
 };
 
 // Reports the progress a few times per second.
@@ -203,31 +205,6 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, con
     return outcome;
 }
 
-// The weight of a colour tile in the progress.
-constexpr std::uint64_t samplesPerColourTile = std::uint64_t{colourTileCells} * colourTileCells;
-
-// Appends the root blocks and fills in the header.
-Result<void> writeRoots(const BakeContext& bake, const Assembler& assembler, AtomicFile& file,
-                        ChunkFileInfo& info) {
-    info.shape = bake.shape;
-    info.missingSamples = bake.source.missingCount;
-    info.source = bake.source.description;
-    info.minStep = assembler.root(Face::PosX).entry.minStep;
-    info.maxStep = assembler.root(Face::PosX).entry.maxStep;
-    for (const Face face : allFaces) {
-        const BakedChunk& root = assembler.root(face);
-        info.minStep = std::min(info.minStep, root.entry.minStep);
-        info.maxStep = std::max(info.maxStep, root.entry.maxStep);
-        std::vector<std::byte> block;
-        putIndex(block, {&root.entry, 1}, file.size());
-        encodeGrid(root.heights, chunkSize(bake.shape), bake.shape.fractionBits, block);
-        ByteWriter(block).put(rootChecksum(block, root.id.face));
-        info.roots[static_cast<std::size_t>(face)] = {file.size(), static_cast<std::uint32_t>(block.size())};
-        TRY(file.append(block));
-    }
-    return {};
-}
-
 Result<void> writeColours(const ColourSource& source, const ColourTree& tree, const BakeSettings& settings,
                           const EarlierBake* earlier, AtomicFile& file, ProgressMeter& meter,
                           ChunkFileInfo& info, BakeReport& report) {
@@ -270,19 +247,6 @@ std::optional<EarlierBake> earlierBake(const HeightSource& source, const BakeSet
     return std::nullopt;
 }
 
-// Says that the finest part of the source needs a finer quantum than the steps allow; empty if it does not.
-std::string quantumNotice(const HeightSource& source, const BakeSettings& settings,
-                          const PlanetShape& shape) {
-    if (settings.quantumM && !settings.finestQuantumM) return {};
-    const double neededM =
-        std::max(settings.finestQuantumM.value_or(0), finestQuantumOf(source, shape.radiusM));
-    if (shape.quantumM <= neededM * (1 + 1e-6)) return {};
-    return fmt::format(
-        "{}: its finest heights need a quantum of {} m, but heights in [{}, {}] m allow no finer one than {} "
-        "m",
-        source.description, neededM, source.minM, source.maxM, shape.quantumM);
-}
-
 }  // namespace
 
 Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings,
@@ -315,39 +279,22 @@ Result<BakeReport> bake(const HeightSource& source, const BakeSettings& settings
     ChunkFileInfo info;
     info.chunks = tree.chunks;
     info.coarsestLeafLevel = tree.coarsestLeafLevel;
-    TRY(writeRoots(context, assembler, file, info));
+    const std::vector<DeferredChunk> roots = assembler.takeRoots();
+    TRY(writeRoots(context, std::span(roots).first<faceCount>(), file, info));
     const std::uint64_t bytesWithoutColours = file.size();
     if (colour) {
         TRY(writeColours(*colour, colourTree, settings, earlier ? &*earlier : nullptr, file, meter, info,
                          report));
     }
     const std::uint64_t colourBytes = file.size() - bytesWithoutColours;
-    if (record) {
-        TRY(file.append(sourceRecordBytes(*record)));
-        info.hasSourceRecord = true;
-    }
-    const std::uint64_t fileBytes = file.size();
-    TRY(file.overwrite(0, headerBytes(info, fileBytes)));
-    TRY(file.commit());
-
+    TRY(commitBake(record, file, info));
     if (!settings.debugLevelsFolder.empty()) {
         TRY(writeLevelImages(output, settings.debugLevelsFolder));
     }
-    report.shape = shape;
-    report.quantumNotice = quantumNotice(source, settings, shape);
-    report.samples = sampleCountOf(info);
-    report.chunks = info.chunks;
-    report.coarsestLeafLevel = info.coarsestLeafLevel;
-    report.fileBytes = fileBytes;
-    report.missingSamples = source.missingCount;
+    describeBake(source, settings, colour, info, std::span(roots).first<faceCount>(), report);
+    report.fileBytes = file.size();
     report.colourTiles = colourTiles;
     report.colourBytes = colourBytes;
-    if (colour) report.colourNotice = colour->notice;
-    for (const Face face : allFaces) {
-        const BakedChunk& root = assembler.root(face);
-        report.largestDeltaCM = std::max(report.largestDeltaCM, root.entry.deltaCM);
-        report.largestDeltaTightM = std::max(report.largestDeltaTightM, root.entry.deltaTightM);
-    }
     report.seconds = stopwatch.elapsedS();
     return report;
 }

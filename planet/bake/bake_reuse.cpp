@@ -204,20 +204,6 @@ Result<Copied> copyStep(const BakeContext& bake, const ChunkFile& file, const Ba
     return copied;
 }
 
-// Adds the units under a chunk; returns false if one lies deeper than `levels` below it.
-bool addUnits(const HeightSource& source, const PlanetShape& shape, const ChunkId& id, int unitLevels,
-              int levels, std::vector<TreeUnit>& units) {
-    if (const std::optional<TreeUnit> unit = unitAt(source, shape, id, unitLevels)) {
-        units.push_back(*unit);
-        return true;
-    }
-    for (int q = 0; q < quadrantCount; ++q) {
-        if (levels == 0 || !addUnits(source, shape, childOf(id, q), unitLevels, levels - 1, units))
-            return false;
-    }
-    return true;
-}
-
 // A block of colours in a file, and the first of its tiles.
 struct ColourBlock {
     ChunkId firstTile;
@@ -395,12 +381,10 @@ std::vector<TreeUnit> BakeWalk::piece(const Place& place) const {
     const auto isNeeded = [&](int unitLevel) {
         return place.changedLevel >= 0 && place.changedLevel >= coarsestLevelOfTiles(unitLevel, shape_);
     };
-    std::vector<TreeUnit> units;
-    if (isNeeded(place.id.level + pieceLevels) ||
-        !addUnits(source_, shape_, place.id, unitLevels_, pieceLevels, units) ||
-        std::ranges::any_of(units, [&](const TreeUnit& unit) { return isNeeded(unit.root.level); })) {
+    if (isNeeded(place.id.level + pieceLevels)) return {};
+    std::vector<TreeUnit> units = unitsUnder(source_, shape_, place.id, unitLevels_, pieceLevels);
+    if (std::ranges::any_of(units, [&](const TreeUnit& unit) { return isNeeded(unit.root.level); }))
         return {};
-    }
     return units;
 }
 

@@ -29,6 +29,20 @@ std::optional<int> evenLeafLevel(const HeightSource& source, const PlanetShape& 
     return level;
 }
 
+// Adds the units under a chunk; returns false if one lies too deep.
+bool addUnits(const HeightSource& source, const PlanetShape& shape, const ChunkId& id, int levels,
+              int levelsAbove, std::vector<TreeUnit>& units) {
+    if (const std::optional<TreeUnit> unit = unitAt(source, shape, id, levels)) {
+        units.push_back(*unit);
+        return true;
+    }
+    for (int q = 0; q < quadrantCount; ++q) {
+        if (levelsAbove == 0 || !addUnits(source, shape, childOf(id, q), levels, levelsAbove - 1, units))
+            return false;
+    }
+    return true;
+}
+
 class Counting {
 public:
     Counting(const HeightSource& source, const PlanetShape& shape, const std::function<bool()>& goOn)
@@ -89,6 +103,12 @@ std::optional<TreeUnit> unitAt(const HeightSource& source, const PlanetShape& sh
                                int levels) {
     const std::optional<int> level = evenLeafLevel(source, shape, id, levels);
     return level ? std::optional(TreeUnit{id, *level}) : std::nullopt;
+}
+
+std::vector<TreeUnit> unitsUnder(const HeightSource& source, const PlanetShape& shape, const ChunkId& id,
+                                 int levels, int levelsAbove) {
+    std::vector<TreeUnit> units;
+    return addUnits(source, shape, id, levels, levelsAbove, units) ? units : std::vector<TreeUnit>();
 }
 
 TreeWalk::TreeWalk(const HeightSource& source, const PlanetShape& shape, int levels)

@@ -48,6 +48,11 @@ constexpr PlanetShape shapeOfLevel(const PlanetShape& shape, int level) {
 std::optional<TreeUnit> unitAt(const HeightSource& source, const PlanetShape& shape, const ChunkId& id,
                                int levels);
 
+// Returns the units of at most `levels` levels under a chunk, in quadtree order. Returns none if the root of one lies deeper
+// than `levelsAbove` below the chunk.
+std::vector<TreeUnit> unitsUnder(const HeightSource& source, const PlanetShape& shape, const ChunkId& id,
+                                 int levels, int levelsAbove);
+
 // Divides the tree into the largest units of at most `levels` levels of children, in quadtree order. Visits
 // only refined chunks and their children, so places without fine data cost nothing.
 class TreeWalk {

@@ -20,20 +20,6 @@ namespace planet {
 
 namespace {
 
-struct PackedTile {
-    ColourEntry entry;  // without the location of its children
-    std::vector<std::byte> bytes;
-};
-
-Result<PackedTile> packedTile(const ColourSource& source, ColourFormat format, const ChunkId& id) {
-    std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
-    TRY(sampleColourTile(source, id, rgb));
-    PackedTile tile;
-    tile.bytes = packColourTexels(format, colourTexels(format, rgb));
-    tile.entry.packedBytes = static_cast<std::uint32_t>(tile.bytes.size());
-    return tile;
-}
-
 // Makes the tiles of a level in quadtree order, some at a time, and writes their blocks.
 class LevelWriter {
 public:
@@ -68,26 +54,21 @@ public:
     }
 
 private:
-    Result<std::vector<PackedTile>> make(std::span<const ChunkId> ids) const {
-        std::vector<Result<PackedTile>> made(ids.size(), PackedTile{});
+    Result<std::vector<PackedColourTile>> make(std::span<const ChunkId> ids) const {
+        std::vector<Result<PackedColourTile>> made(ids.size(), PackedColourTile{});
         parallelFor(threads_, ids.size(),
-                    [&](std::size_t i) { made[i] = packedTile(source_, format_, ids[i]); });
-        std::vector<PackedTile> tiles;
-        for (Result<PackedTile>& result : made) {
+                    [&](std::size_t i) { made[i] = packColourTile(source_, format_, ids[i]); });
+        std::vector<PackedColourTile> tiles;
+        for (Result<PackedColourTile>& result : made) {
             TRY_ASSIGN(auto tile, std::move(result));
             tiles.push_back(std::move(tile));
         }
         return tiles;
     }
 
-    Result<BlockLocation> append(const ChunkId& firstTile, std::span<const PackedTile> tiles) {
+    Result<BlockLocation> append(const ChunkId& firstTile, std::span<const PackedColourTile> tiles) {
         const std::uint64_t offset = file_.size();
-        std::vector<std::byte> block;
-        for (const PackedTile& tile : tiles) putColourEntry(block, tile.entry, offset);
-        for (const PackedTile& tile : tiles) block.insert(block.end(), tile.bytes.begin(), tile.bytes.end());
-        const std::uint64_t sum = firstTile.level == 0 ? colourRootChecksum(block, firstTile.face)
-                                                       : colourSiblingChecksum(block, parentOf(firstTile));
-        ByteWriter(block).put(sum);
+        const std::vector<std::byte> block = colourBlock(firstTile, tiles, offset);
         TRY(file_.append(block));
         return BlockLocation{offset, static_cast<std::uint32_t>(block.size())};
     }
@@ -100,6 +81,27 @@ private:
 };
 
 }  // namespace
+
+Result<PackedColourTile> packColourTile(const ColourSource& source, ColourFormat format, const ChunkId& id) {
+    std::vector<std::uint8_t> rgb(colourTileBytes(ColourFormat::Lossless));
+    TRY(sampleColourTile(source, id, rgb));
+    PackedColourTile tile;
+    tile.bytes = packColourTexels(format, colourTexels(format, rgb));
+    tile.entry.packedBytes = static_cast<std::uint32_t>(tile.bytes.size());
+    return tile;
+}
+
+std::vector<std::byte> colourBlock(const ChunkId& firstTile, std::span<const PackedColourTile> tiles,
+                                   std::uint64_t offset) {
+    std::vector<std::byte> block;
+    for (const PackedColourTile& tile : tiles) putColourEntry(block, tile.entry, offset);
+    for (const PackedColourTile& tile : tiles)
+        block.insert(block.end(), tile.bytes.begin(), tile.bytes.end());
+    const std::uint64_t sum = firstTile.level == 0 ? colourRootChecksum(block, firstTile.face)
+                                                   : colourSiblingChecksum(block, parentOf(firstTile));
+    ByteWriter(block).put(sum);
+    return block;
+}
 
 Result<int> colourLeafLevel(const ColourSource& source, const ColourBakeSettings& settings) {
     constexpr int most = (colourTileCells << maxColourLevel) + 1;

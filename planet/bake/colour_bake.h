@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "planet/bake/bake_settings.h"
@@ -32,6 +33,18 @@ struct ColourTree {
 
 // Returns the tree of a source. The Error is that of colourLeafLevel.
 Result<ColourTree> colourTreeOf(const ColourSource& source, const ColourBakeSettings& settings);
+
+struct PackedColourTile {
+    ColourEntry entry;  // without the location of its children
+    std::vector<std::byte> bytes;
+};
+
+// Bakes a tile. Any thread. The Error names the source's file.
+Result<PackedColourTile> packColourTile(const ColourSource& source, ColourFormat format, const ChunkId& id);
+
+// Returns the block of one root, or of four siblings, for its location in the file.
+std::vector<std::byte> colourBlock(const ChunkId& firstTile, std::span<const PackedColourTile> tiles,
+                                   std::uint64_t offset);
 
 // Called by the calling thread after every few tiles, with the number of new tiles. Returning false cancels.
 using ColourProgress = std::function<bool(std::uint64_t moreTiles)>;

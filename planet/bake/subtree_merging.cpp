@@ -138,21 +138,21 @@ Subtree SubtreeStack::holdBack(std::span<Subtree, quadrantCount> children) {
     return parent;
 }
 
-HeldChunk heldChunk(Subtree&& subtree, std::uint64_t offset) {
-    HeldChunk chunk{std::move(subtree.root), subtree.isUnknown, subtree.deltaTightM};
+DeferredChunk deferredChunk(Subtree&& subtree, std::uint64_t offset) {
+    DeferredChunk chunk{std::move(subtree.root), subtree.isUnknown, subtree.deltaTightM};
     if (chunk.baked.entry.children.exists()) chunk.baked.entry.children.offset += offset - provisionalOrigin;
     return chunk;
 }
 
-void sortInQuadtreeOrder(std::vector<HeldChunk>& chunks) {
+void sortInQuadtreeOrder(std::vector<DeferredChunk>& chunks) {
     std::ranges::sort(chunks, {},
-                      [](const HeldChunk& chunk) { return indexInQuadtreeOrder(chunk.baked.id); });
+                      [](const DeferredChunk& chunk) { return indexInQuadtreeOrder(chunk.baked.id); });
 }
 
-Result<void> searchTightMetrics(const BakeContext& bake, std::span<HeldChunk> chunks, int threads,
+Result<void> searchTightMetrics(const BakeContext& bake, std::span<DeferredChunk> chunks, int threads,
                                 const ReadChildren& readChildren, const std::function<bool()>& goOn) {
     std::vector<BakedChunk*> unknown;
-    for (HeldChunk& chunk : chunks) {
+    for (DeferredChunk& chunk : chunks) {
         if (chunk.deltaTightM)
             chunk.baked.entry.deltaTightM = *chunk.deltaTightM;
         else if (chunk.isUnknown)
@@ -176,11 +176,11 @@ Result<void> searchTightMetrics(const BakeContext& bake, std::span<HeldChunk> ch
     return outcome;
 }
 
-HeldParent mergeHeld(const BakeContext& bake, std::span<HeldChunk, quadrantCount> children,
-                     std::uint64_t offset, BakeScratch& scratch) {
+DeferredParent mergeDeferred(const BakeContext& bake, std::span<DeferredChunk, quadrantCount> children,
+                             std::uint64_t offset, BakeScratch& scratch) {
     std::array<BakedChunk, quadrantCount> baked;
     for (std::size_t q = 0; q < baked.size(); ++q) baked[q] = std::move(children[q].baked);
-    HeldParent merged;
+    DeferredParent merged;
     merged.parent = mergeChildren(bake, parentOf(baked[0].id), baked, {}, offset, scratch, merged.block);
     return merged;
 }

@@ -86,29 +86,29 @@ private:
 };
 
 // A chunk that was held back. Its blocks are in the file: its location counts from the beginning of the file.
-struct HeldChunk {
+struct DeferredChunk {
     BakedChunk baked;
     bool isUnknown = false;
     std::optional<float> deltaTightM{};
 };
 
 // Returns a subtree's root, of which the first block lies at an offset in the file.
-HeldChunk heldChunk(Subtree&& subtree, std::uint64_t offset);
+DeferredChunk deferredChunk(Subtree&& subtree, std::uint64_t offset);
 
 // Sorts by quadtree order, for chunks of one level.
-void sortInQuadtreeOrder(std::vector<HeldChunk>& chunks);
+void sortInQuadtreeOrder(std::vector<DeferredChunk>& chunks);
 
 // Raises the tight metrics of those chunks that need it to their distance from the finest samples. readChildren: of the
 // unfinished file; any thread. Calls goOn before each block is read, from one thread at a time.
-Result<void> searchTightMetrics(const BakeContext& bake, std::span<HeldChunk> chunks, int threads,
+Result<void> searchTightMetrics(const BakeContext& bake, std::span<DeferredChunk> chunks, int threads,
                                 const ReadChildren& readChildren, const std::function<bool()>& goOn);
 
 // Returns the parent of four siblings, whose tight metric has to be searched for, and their block for a location.
-struct HeldParent {
+struct DeferredParent {
     BakedChunk parent;
     std::vector<std::byte> block;
 };
-HeldParent mergeHeld(const BakeContext& bake, std::span<HeldChunk, quadrantCount> children,
-                     std::uint64_t offset, BakeScratch& scratch);
+DeferredParent mergeDeferred(const BakeContext& bake, std::span<DeferredChunk, quadrantCount> children,
+                             std::uint64_t offset, BakeScratch& scratch);
 
 }  // namespace planet

@@ -27,7 +27,10 @@ public:
 
     const std::filesystem::path& path() const { return path_; }      // as given to create
     const std::filesystem::path& target() const { return target_; }  // path() with its links resolved
+    const std::filesystem::path& temporary() const { return temporary_; }  // where it is written
     std::uint64_t size() const { return size_; }
+    // Counts bytes that other processes have written after size(), by the temporary name.
+    void growTo(std::uint64_t bytes) { size_ = bytes; }
     Result<void> append(std::span<const std::byte> bytes);
     // Replaces bytes that were appended before.
     Result<void> overwrite(std::uint64_t offset, std::span<const std::byte> bytes);

@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "planet/paging/pager.h"
 #include "planet/planet.h"
 
 namespace planet {
@@ -197,6 +198,12 @@ inline FakePyramid makeFakePyramid(int leafLevelWanted) {
 inline const FakePyramid& fakePyramid() {
     static const FakePyramid pyramid = makeFakePyramid(4);
     return pyramid;
+}
+
+inline LoadChildren pyramidLoader() {
+    return [](const ChunkId& parent, BlockLocation location, StepsView heights) {
+        return fakePyramid().load(parent, location, heights);
+    };
 }
 
 // A node's children from the pyramid, each in the slot of its own index.

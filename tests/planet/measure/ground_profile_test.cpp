@@ -16,12 +16,6 @@
 namespace planet {
 namespace {
 
-LoadChildren pyramidLoader() {
-    return [](const ChunkId& parent, BlockLocation location, StepsView heights) {
-        return fakePyramid().load(parent, location, heights);
-    };
-}
-
 const glm::dvec3 fromPlace{1, 0.2, 0.3};
 const glm::dvec3 toPlace{0.1, 1, -0.6};  // over two edges of faces
 

@@ -18,12 +18,6 @@
 namespace planet {
 namespace {
 
-LoadChildren pyramidLoader() {
-    return [](const ChunkId& parent, BlockLocation location, StepsView heights) {
-        return fakePyramid().load(parent, location, heights);
-    };
-}
-
 TrueErrorReport measured(const DrawnSnapshot& snapshot) {
     FinestHeights heights(pyramidLoader());
     return measureTrueError(snapshot, heights).value();
