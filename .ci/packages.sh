@@ -42,6 +42,8 @@ xdotool                 presses keys in the window's tests
 imagemagick             takes their screenshots
 gdal-bin                what a bake is measured against
 nodejs                  the trace writer in JavaScript
+libopenmpi-dev          bakes on several ranks
+openmpi-bin             starts them
 clang                   fuzzers, and a second compiler
 libclang-rt-14-dev      its fuzzer and sanitizers"
 
@@ -110,11 +112,14 @@ configure() {
     [ -f "$folder/build.ninja" ] || cmake --preset "$1"
 }
 
-# configure_tests PRESET: the same with the tests, also in a folder that is configured without them.
+# configure_tests PRESET: the same with the tests, also in a folder that is configured without them. Under a sanitizer,
+# several ranks are tested as threads only, because MPI itself leaks and races.
 configure_tests() {
-    folder=build
+    folder=build mpi=ON
     [ "$1" = release ] || folder="build-$1"
-    if [ ! -f "$folder/build.ninja" ] || ! grep -q '^WORLDY_TESTS:BOOL=ON$' "$folder/CMakeCache.txt"; then
-        cmake --preset "$1" -DWORLDY_TESTS=ON
+    case "$1" in asan | tsan) mpi=OFF ;; esac
+    if [ ! -f "$folder/build.ninja" ] || ! grep -q '^WORLDY_TESTS:BOOL=ON$' "$folder/CMakeCache.txt" ||
+        ! grep -q "^WORLDY_MPI:BOOL=$mpi\$" "$folder/CMakeCache.txt"; then
+        cmake --preset "$1" -DWORLDY_TESTS=ON -DWORLDY_MPI=$mpi
     fi
 }

@@ -22,7 +22,7 @@ std::atomic<int> outputError = 0;
 }  // namespace
 
 int reportError(const planet::Error& error) {
-    printMessage("worldy: {}\n", error.message);
+    if (!error.message.empty()) printMessage("worldy: {}\n", error.message);
     return error.kind == planet::ErrorKind::Cancelled ? exitCancelled : exitBadInput;
 }
 

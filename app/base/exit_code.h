@@ -10,7 +10,7 @@ inline constexpr int exitCheckFailed = 1;  // the checked data is readable and w
 inline constexpr int exitBadInput = 2;     // bad input, or reading or writing failed
 inline constexpr int exitCancelled = 130;
 
-// Writes "worldy: message" to stderr. Returns the exit code.
+// Writes "worldy: message" to stderr; nothing if there is no message, because another process writes it. Returns the exit code.
 int reportError(const planet::Error& error);
 
 // Opens /dev/null in the place of each closed standard stream. Otherwise the next opened file would take its

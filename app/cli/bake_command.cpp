@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <system_error>
 
 #include "app/base/message.h"
@@ -11,13 +13,24 @@
 #include "app/base/report.h"
 #include "app/base/text.h"
 #include "app/data/bake_progress.h"
+#include "app/data/bake_ranks.h"
 #include "app/data/worlds.h"
+#include "planet/bake/job/team.h"
+#include "planet/base/stopwatch.h"
 #include "planet/source/colour_source.h"
 #include "planet/source/terrain.h"
 
 namespace worldy {
 
 namespace {
+
+// What is baked, open.
+struct BakeInputs {
+    planet::BakeSettings settings;
+    planet::HeightSource source;
+    std::optional<planet::ColourSource> colour;
+    double openS = 0;  // how long it took to open them
+};
 
 double bitsPerSample(const planet::BakeReport& report) {
     return report.samples == 0 ? 0
@@ -33,44 +46,83 @@ std::optional<double> readsPerSample(const planet::HeightSource& source) {
     return static_cast<double>(reads.read) / static_cast<double>(reads.samples);
 }
 
-void printJson(const planet::HeightSource& source, const BakeOptions& options,
-               const planet::BakeReport& report) {
+nlohmann::ordered_json jsonOf(const planet::RankReport& rank) {
+    return {{"name", rank.name},
+            {"threads", rank.threads},
+            {"units", rank.units},
+            {"samples", rank.samples},
+            {"bake_s", rank.bakeS},
+            {"join_s", rank.joinS},
+            {"wait_s", rank.waitS},
+            {"spooled_bytes", rank.spooledBytes},
+            {"written_bytes", rank.writtenBytes},
+            {"peak_memory_bytes", rank.peakMemoryBytes}};
+}
+
+// job: null if it was baked alone.
+void printJson(const BakeInputs& inputs, const BakeOptions& options, const planet::BakeReport& report,
+               const planet::JobReport* job) {
+    const planet::HeightSource& source = inputs.source;
     const std::optional<double> reads = readsPerSample(source);
-    const nlohmann::ordered_json json = {
-        {"source", source.description},
-        {"output", options.output.string()},
-        {"face_size", planet::faceCells(report.shape) + 1},
-        {"chunk_size", planet::chunkSize(report.shape)},
-        {"level_count", planet::deepestLevelOf(report.shape) + 1},
-        {"radius_m", report.shape.radiusM},
-        {"quantum_m", fileQuantumM(report.shape)},
-        {"finest_quantum_m", report.shape.quantumM},
-        {"samples", report.samples},
-        {"chunks", report.chunks},
-        {"coarsest_leaf_level", report.coarsestLeafLevel},
-        {"file_bytes", report.fileBytes},
-        {"bits_per_sample", bitsPerSample(report)},
-        {"missing_samples", report.missingSamples},
-        {"skipped", source.skipped},
-        {"root_delta_c_m", report.largestDeltaCM},
-        {"root_tight_m", report.largestDeltaTightM},
-        {"colour_tiles", report.colourTiles},
-        {"colour_bytes", report.colourBytes},
-        {"colour_notice", report.colourNotice},
-        {"quantum_notice", report.quantumNotice},
-        {"reuse", options.settings.reuse.string()},
-        {"copied_chunks", report.copiedChunks},
-        {"copied_colour_tiles", report.copiedColourTiles},
-        {"sampled_cells", report.sampledCells},
-        {"reuse_notice", report.reuseNotice},
-        {"reads_per_sample", reads ? nlohmann::ordered_json(*reads) : nullptr},
-        {"peak_memory_bytes", peakProcessBytes()},
-        {"seconds", report.seconds}};
+    nlohmann::ordered_json json = {{"source", source.description},
+                                   {"output", options.output.string()},
+                                   {"face_size", planet::faceCells(report.shape) + 1},
+                                   {"chunk_size", planet::chunkSize(report.shape)},
+                                   {"level_count", planet::deepestLevelOf(report.shape) + 1},
+                                   {"radius_m", report.shape.radiusM},
+                                   {"quantum_m", fileQuantumM(report.shape)},
+                                   {"finest_quantum_m", report.shape.quantumM},
+                                   {"samples", report.samples},
+                                   {"chunks", report.chunks},
+                                   {"coarsest_leaf_level", report.coarsestLeafLevel},
+                                   {"file_bytes", report.fileBytes},
+                                   {"bits_per_sample", bitsPerSample(report)},
+                                   {"missing_samples", report.missingSamples},
+                                   {"skipped", source.skipped},
+                                   {"root_delta_c_m", report.largestDeltaCM},
+                                   {"root_tight_m", report.largestDeltaTightM},
+                                   {"colour_tiles", report.colourTiles},
+                                   {"colour_bytes", report.colourBytes},
+                                   {"colour_notice", report.colourNotice},
+                                   {"quantum_notice", report.quantumNotice},
+                                   {"reuse", options.settings.reuse.string()},
+                                   {"copied_chunks", report.copiedChunks},
+                                   {"copied_colour_tiles", report.copiedColourTiles},
+                                   {"sampled_cells", report.sampledCells},
+                                   {"reuse_notice", report.reuseNotice},
+                                   {"reads_per_sample", reads ? nlohmann::ordered_json(*reads) : nullptr},
+                                   {"peak_memory_bytes", peakProcessBytes()},
+                                   {"seconds", report.seconds}};
+    if (job) {
+        json["open_s"] = inputs.openS;
+        json["plan_s"] = job->planS;
+        json["units"] = job->units;
+        json["resumed_units"] = job->resumedUnits;
+        json["ranks"] = nlohmann::ordered_json::array();
+        for (const planet::RankReport& rank : job->ranks) json["ranks"].push_back(jsonOf(rank));
+        json["finished_units"] = nlohmann::ordered_json::array();
+        for (const planet::SpoolEntry& unit : job->finished)
+            json["finished_units"].push_back(
+                {unit.done.samples, unit.done.seconds, unit.frontBytes + unit.bodyBytes});
+    }
     fmt::print("{}", jsonText(json));
 }
 
-void printText(const planet::HeightSource& source, const BakeOptions& options,
-               const planet::BakeReport& report) {
+void printRanks(const planet::JobReport& job) {
+    fmt::print("{} units, of which {} were finished before\n", job.units, job.resumedUnits);
+    for (const planet::RankReport& rank : job.ranks) {
+        fmt::print(
+            "{}, {} threads: {} units, {} samples, baked {}, joined {}, of which it waited {}; {} of "
+            "memory\n",
+            rank.name, rank.threads, rank.units, countText(static_cast<double>(rank.samples)),
+            durationText(rank.bakeS), durationText(rank.joinS), durationText(rank.waitS),
+            bytesText(static_cast<double>(rank.peakMemoryBytes)));
+    }
+}
+
+void printText(const BakeInputs& inputs, const BakeOptions& options, const planet::BakeReport& report,
+               const planet::JobReport* job) {
+    const planet::HeightSource& source = inputs.source;
     fmt::print("{}\n", source.description);
     fmt::print("{}: {} levels, {} chunks of {} x {}, faces of {} x {}\n", options.output.string(),
                planet::deepestLevelOf(report.shape) + 1, report.chunks, planet::chunkSize(report.shape),
@@ -104,6 +156,7 @@ void printText(const planet::HeightSource& source, const BakeOptions& options,
     fmt::print("max root error: delta_c {}, tight {}\n",
                distanceText(static_cast<double>(report.largestDeltaCM)),
                distanceText(static_cast<double>(report.largestDeltaTightM)));
+    if (job) printRanks(*job);
 }
 
 void printWarnings(const planet::HeightSource& source, const BakeOptions& options,
@@ -157,6 +210,53 @@ planet::Result<NamedSource> sourceFrom(const BakeOptions& options) {
     return named;
 }
 
+planet::Result<BakeInputs> openInputs(const BakeOptions& options) {
+    const planet::Stopwatch stopwatch;
+    const std::filesystem::path& reuse = options.settings.reuse;
+    std::error_code unknown;
+    if (!reuse.empty() && !std::filesystem::exists(reuse, unknown)) {
+        return planet::ioError(
+            fmt::format("{}: no such file; expected an earlier bake to copy from", reuse.string()));
+    }
+    planet::Result<NamedSource> named = sourceFrom(options);
+    if (!named) return tl::unexpected(named.error());
+    planet::Result<planet::HeightSource> source =
+        planet::openHeightSource(named->source, options.sourceSettings);
+    if (!source) return tl::unexpected(source.error());
+    BakeInputs inputs{named->settings, *std::move(source), {}, 0};
+    const bool hasOwn = options.colour.empty() && planet::hasColourLayers(named->source);
+    if (hasOwn || !options.colour.empty()) {
+        planet::Result<planet::ColourSource> opened =
+            planet::openColourSource(hasOwn ? named->source : options.colour);
+        if (!opened) return tl::unexpected(opened.error());
+        inputs.colour = *std::move(opened);
+    }
+    inputs.openS = stopwatch.elapsedS();
+    return inputs;
+}
+
+void printReport(const BakeInputs& inputs, const BakeOptions& options, const planet::BakeReport& report,
+                 const planet::JobReport* job = nullptr) {
+    printWarnings(inputs.source, options, report);
+    (options.json ? printJson : printText)(inputs, options, report, job);
+}
+
+planet::Result<void> bakeWithOthers(const BakeOptions& options, planet::Ranks& ranks) {
+    planet::Team team(ranks);
+    const planet::Result<std::string> program = programBuild();
+    const planet::Result<BakeInputs> inputs = openInputs(options);
+    planet::Result<void> ready;
+    if (!inputs) ready = tl::unexpected(inputs.error());
+    if (!program) ready = tl::unexpected(program.error());
+    if (ready = team.agree(ready); !ready) return ready;
+    const planet::Result<planet::JobReport> report =
+        bakeJobOnTerminal(ranks, inputs->source, {inputs->settings, options.resume, *program}, options.output,
+                          inputs->colour ? &*inputs->colour : nullptr, options.progressJson);
+    if (!report) return tl::unexpected(report.error());
+    if (team.rank() == 0) printReport(*inputs, options, report->bake, &*report);
+    return {};
+}
+
 }  // namespace
 
 planet::Result<void> runBake(const BakeOptions& options) {
@@ -164,30 +264,22 @@ planet::Result<void> runBake(const BakeOptions& options) {
         printPresets();
         return {};
     }
-    const std::filesystem::path& reuse = options.settings.reuse;
-    std::error_code unknown;
-    if (!reuse.empty() && !std::filesystem::exists(reuse, unknown)) {
-        return planet::ioError(
-            fmt::format("{}: no such file; expected an earlier bake to copy from", reuse.string()));
+    if (isOneOfSeveralRanks() || options.resume) {
+        const planet::Result<std::unique_ptr<planet::Ranks>> ranks = joinRanks();
+        if (!ranks) return tl::unexpected(ranks.error());
+        const bool writesMessages = (*ranks)->rank() == 0;
+        return bakeWithOthers(options, **ranks).map_error([&](planet::Error error) {
+            if (!writesMessages) error.message.clear();
+            return error;
+        });
     }
-    const planet::Result<NamedSource> named = sourceFrom(options);
-    if (!named) return tl::unexpected(named.error());
-    const planet::Result<planet::HeightSource> source =
-        planet::openHeightSource(named->source, options.sourceSettings);
-    if (!source) return tl::unexpected(source.error());
-    std::optional<planet::ColourSource> colour;
-    const bool hasOwn = options.colour.empty() && planet::hasColourLayers(named->source);
-    if (hasOwn || !options.colour.empty()) {
-        planet::Result<planet::ColourSource> opened =
-            planet::openColourSource(hasOwn ? named->source : options.colour);
-        if (!opened) return tl::unexpected(opened.error());
-        colour = *std::move(opened);
-    }
+    const planet::Result<BakeInputs> inputs = openInputs(options);
+    if (!inputs) return tl::unexpected(inputs.error());
     const planet::Result<planet::BakeReport> report =
-        bakeOnTerminal(*source, named->settings, options.output, colour ? &*colour : nullptr);
+        bakeOnTerminal(inputs->source, inputs->settings, options.output,
+                       inputs->colour ? &*inputs->colour : nullptr, options.progressJson);
     if (!report) return tl::unexpected(report.error());
-    printWarnings(*source, options, *report);
-    (options.json ? printJson : printText)(*source, options, *report);
+    printReport(*inputs, options, *report);
     return {};
 }
 

@@ -22,8 +22,12 @@ struct BakeOptions {
     bool listPresets = false;       // prints the worlds and the kinds of terrain instead
     std::filesystem::path colour;   // image; empty: no colours
     bool json = false;
+    bool resume = false;        // goes on with the finished units of a bake that did not end
+    bool progressJson = false;  // writes the progress as lines of JSON
 };
 
+// Started by mpirun or srun, it bakes together with the other ranks; rank 0 writes all messages, and the Error of another
+// rank has no message.
 planet::Result<void> runBake(const BakeOptions& options);
 
 }  // namespace worldy

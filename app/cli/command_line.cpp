@@ -32,6 +32,7 @@
 #include "app/cli/fly_command.h"
 #include "app/cli/pops_command.h"
 #include "app/cli/replay_command.h"
+#include "app/cli/schedule_command.h"
 #include "app/cli/settings_command.h"
 #include "app/cli/shot_command.h"
 #include "app/cli/sweep_command.h"
@@ -121,6 +122,12 @@ void addBake(CLI::App& command, BakeOptions& options) {
         ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
     command.add_option("--reuse", settings.reuse,
                        "Earlier bake, perhaps the output itself, to copy unchanged chunks from");
+    command.add_flag(
+        "--resume", options.resume,
+        "Go on with the finished units of a bake that did not end, which lie beside the output in "
+        "OUT.chk.spool; keep them in the same way");
+    command.add_flag("--progress-json", options.progressJson,
+                     "Write the progress to standard error as lines of JSON");
     command.add_option("--debug-levels", settings.debugLevelsFolder,
                        "Also write each level of each face as PNG to this folder");
     command.add_option("--colour", options.colour,
@@ -234,6 +241,21 @@ void addCosts(CLI::App& command, CostsOptions& options) {
         ->check(CLI::Range(1, 1000));
     command.add_option("--colour-image", options.colourImage,
                        "Colour image of the planet (colour.jpg beside FILE)");
+}
+
+void addSchedule(CLI::App& command, ScheduleOptions& options) {
+    command
+        .add_option("FILE", options.file,
+                    "What worldy bake --json has printed, run with --resume or on several ranks")
+        ->required();
+    command.add_option("--ranks", options.ranks, "Numbers of ranks, separated by commas (1,8,64,512)")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--threads", options.threads, "Threads of a rank (1)")->check(CLI::Range(1, 1024));
+    command
+        .add_option("--bandwidth", options.megabytesPerS,
+                    "Bandwidth of the file system, which all ranks share, MB/s (1000)")
+        ->check(number(1e-3, 1e9));
 }
 
 void addPops(CLI::App& command, PopsOptions& options) {
@@ -592,6 +614,7 @@ struct CommandLine {
     SweepTexts sweepTexts;
     CracksOptions cracks;
     CostsOptions costs;
+    ScheduleOptions schedule;
     PopsOptions pops;
     AuditOptions audit;
     ReplayOptions replay;
@@ -631,6 +654,7 @@ struct CommandLine {
         addSweep(at("sweep"), sweep, sweepTexts);
         addCracks(at("cracks"), cracks, shared["cracks"].view);
         addCosts(at("costs"), costs);
+        addSchedule(at("schedule"), schedule);
         addPops(at("pops"), pops);
         addAudit(at("audit"), audit, shared["audit"].view);
         addReplay(at("replay"), replay);
@@ -734,6 +758,7 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"bench", command("bench", line.bench, runBench, ready)},
         {"cracks", command("cracks", line.cracks, runCracks, ready)},
         {"costs", command("costs", line.costs, runCosts, ready)},
+        {"schedule", command("schedule", line.schedule, runSchedule, ready)},
         {"pops", command("pops", line.pops, runPops, ready)},
         {"audit", command("audit", line.audit, runAudit, ready)},
         {"settings", command("settings", line.settings, runSettings, ready)},

@@ -26,12 +26,16 @@ constexpr FlightSampling everySeconds(double seconds) {
 }
 constexpr const char* reportHelp = "Report to write, JSON";
 
-constexpr std::array<CommandSpec, 18> commandTable = {{
+constexpr std::array<CommandSpec, 19> commandTable = {{
     {.name = "bake",
      .about = "Bake elevation images or rasters, a world file, six cube faces or procedural terrain into a "
               "chunk file",
      .takes = takes::json | takes::output | takes::source,
      .output = "Chunk file to write"},
+    {.name = "schedule",
+     .about = "Predict how long a bake takes on more ranks, from the report of one",
+     .takes = takes::json | takes::output,
+     .output = reportHelp},
     {.name = "info", .about = "Describe the content of a chunk file", .takes = takes::json},
     {.name = "verify", .about = "Read a whole chunk file and check it", .takes = takes::json | takes::source},
     {.name = "probe",

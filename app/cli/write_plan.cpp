@@ -106,6 +106,13 @@ CommandFiles filesOf(const CompareOptions& options) {
     return files;
 }
 
+CommandFiles filesOf(const ScheduleOptions& options) {
+    CommandFiles files;
+    files.inputs.push_back(options.file);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
 CommandFiles filesOf(const CostsOptions& options) {
     CommandFiles files;
     addChunkFile(files, options.file);

@@ -11,6 +11,7 @@
 #include "app/cli/fly_command.h"
 #include "app/cli/pops_command.h"
 #include "app/cli/replay_command.h"
+#include "app/cli/schedule_command.h"
 #include "app/cli/shot_command.h"
 #include "app/cli/sweep_command.h"
 #include "app/cli/trace_command.h"
@@ -26,6 +27,7 @@ CommandFiles filesOf(const BakeOptions& options);
 CommandFiles filesOf(const BenchOptions& options);
 CommandFiles filesOf(const CompareOptions& options);
 CommandFiles filesOf(const CostsOptions& options);
+CommandFiles filesOf(const ScheduleOptions& options);
 CommandFiles filesOf(const CracksOptions& options);
 CommandFiles filesOf(const FlyOptions& options);
 CommandFiles filesOf(const MakeLayersOptions& options);

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "app/data/launched_bake.h"
 #include "app/data/write_check.h"
 #include "planet/bake/bake_tile.h"
 #include "planet/bake/bake_tree.h"
@@ -84,6 +85,14 @@ Result<planet::BakeReport> BakeJob::run(const std::stop_token& stop, BakeTask ta
     files.outputs = {{task.output, OutputKind::ChunkFile}};
     if (task.firstLook) files.outputs.push_back({task.firstLook->output, OutputKind::ChunkFile});
     task.sourceSettings.stop = stop;
+    if (!task.launcher.empty()) {
+        return checkNotInputs(files).and_then([&] {
+            return runLaunchedBake(task.launcher, task, stop, [&](const planet::JobProgress& progress) {
+                const std::lock_guard lock(mutex_);
+                progress_ = progress;
+            });
+        });
+    }
     const auto opened = [&]() -> Result<planet::HeightSource> {
         if (task.opened) return *task.opened;
         return planet::openHeightSource(task.source, task.sourceSettings);
@@ -110,7 +119,7 @@ Result<planet::BakeReport> BakeJob::bakeOpened(const std::stop_token& stop, cons
     }
     const auto onProgress = [&](const planet::BakeProgress& progress) {
         const std::lock_guard lock(mutex_);
-        progress_ = progress;
+        progress_.bake = progress;
         return goOn();
     };
     Result<planet::BakeReport> result =
@@ -135,7 +144,7 @@ SharedLayers BakeJob::layers() const {
     return layers_;
 }
 
-planet::BakeProgress BakeJob::progress() const {
+planet::JobProgress BakeJob::progress() const {
     const std::lock_guard lock(mutex_);
     return progress_;
 }

@@ -14,6 +14,7 @@
 #include "app/data/source_jobs.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/bake_estimate.h"
+#include "planet/bake/job/unit_feed.h"
 #include "planet/source/height_source.h"
 
 namespace worldy {
@@ -47,7 +48,8 @@ struct BakeTask {
     // Baked first. It is left out if the whole bake has so few samples that it is there as soon.
     std::optional<FirstLook> firstLook{};
     std::optional<planet::HeightSource>
-        opened{};  // the source if it is open already; otherwise the bake reads it
+        opened{};            // the source if it is open already; otherwise the bake reads it
+    std::string launcher{};  // starts the bake on several ranks (launched_bake.h); empty: it runs here
 };
 
 // Bakes of up to this many samples, which take a few seconds, have no first look.
@@ -58,7 +60,7 @@ class BakeJob {
 public:
     explicit BakeJob(BakeTask task);
 
-    planet::BakeProgress progress() const;
+    planet::JobProgress progress() const;  // without units if it runs here
     // Returns true once, when the first look is baked.
     bool takeFirstLook();
     void cancel() { job_.cancel(); }
@@ -76,7 +78,7 @@ private:
 
     mutable std::mutex mutex_;
     bool firstLookIsBaked_ = false;                // guarded by mutex_
-    planet::BakeProgress progress_;                // guarded by mutex_
+    planet::JobProgress progress_;                 // guarded by mutex_
     std::string colourProblem_;                    // guarded by mutex_
     SharedLayers layers_;                          // guarded by mutex_
     Job<planet::Result<planet::BakeReport>> job_;  // last: it uses the other members

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "planet/bake/bake.h"
 #include "planet/source/height_source.h"
@@ -14,6 +15,7 @@ struct BakeRequest {
     planet::HeightSourceSettings sourceSettings;
     planet::BakeSettings settings;
     std::filesystem::path colour{};  // image for the colour tiles; empty: no colours
+    std::string launcher{};          // the command that starts the bake on several ranks; empty: it runs here
 };
 
 // Selects a square of a face of a source that is not baked yet.

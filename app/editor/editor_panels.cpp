@@ -75,7 +75,7 @@ void viewportWindows(const ui::EditorView& view, ViewSettings& settings, Viewpor
 ui::BakeWindowInput bakeWindowInputOf(const Session& session, const ui::EditorView& view) {
     ui::BakeWindowInput input;
     input.source = sourceName(session.data.source);
-    input.progress = view.bake.progress;
+    input.progress = view.bake.progress.bake;
     input.stopping = view.bake.stopping;
     if (!view.bake.running) input.problem = view.data.problem;
     input.canBake = session.data.chunkFile != session.data.source;

@@ -135,7 +135,8 @@ void launchWaitingBake(Session& session) {
                                            .output = bake.data.chunkFile,
                                            .colour = JobColour{bake.data.bakedColour, bake.colourMayFail},
                                            .firstLook = firstLook,
-                                           .opened = std::exchange(bake.opened, std::nullopt)});
+                                           .opened = std::exchange(bake.opened, std::nullopt),
+                                           .launcher = bake.request.launcher});
 }
 
 // Shows the coarse bake of a planet as soon as it is there. The whole bake goes on, and then takes its place.

@@ -1,13 +1,10 @@
 // The program's own versions of the functions of image_functions.h. Each loads the module at the first call, and calls the
 // function there. Without the module it fails with an Error that says why.
 
-#include <dlfcn.h>
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <string>
-#include <system_error>
 
+#include "app/base/module.h"
 #include "app/images/image_functions.h"
 
 namespace worldy {
@@ -16,34 +13,15 @@ namespace {
 
 using planet::Result;
 
-// Returns where the module lies: beside the program, as it is built, or in the folder of installed libraries.
-std::filesystem::path modulePath() {
-    constexpr const char* name = "worldy_images.so";
-    std::error_code status;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", status);
-    const std::filesystem::path folder = program.parent_path();
-    const std::filesystem::path installed = folder / WORLDY_MODULES / name;
-    return std::filesystem::exists(installed, status) ? installed.lexically_normal() : folder / name;
-}
-
 Result<const ImageFunctions*> load() {
-    const std::filesystem::path path = modulePath();
+    constexpr const char* file = "worldy_images.so";
     // The module is never closed, because open sources have functions of it.
-    void* const handle = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
-    const void* const found = handle ? ::dlsym(handle, "worldyImageModule") : nullptr;
-    if (!found) {
-        return planet::ioError(fmt::format(
-            "{}: cannot be loaded: {}; expected the module that is built with Worldy and reads and "
-            "writes images",
-            path.string(), ::dlerror()));
-    }
-    const auto* const module = static_cast<const ImageModule*>(found);
-    if (module->build != ImageModuleBuild{WORLDY_VERSION}) {
-        return planet::ioError(
-            fmt::format("{}: belongs to another build of Worldy, of version {}; expected the one of this "
-                        "build, of version {}",
-                        path.string(), module->build.version, WORLDY_VERSION));
-    }
+    const Result<const void*> found =
+        loadModule(file, "worldyImageModule", "is built with Worldy and reads and writes images");
+    if (!found) return tl::unexpected(found.error());
+    const auto* const module = static_cast<const ImageModule*>(*found);
+    if (module->build != ImageModuleBuild{WORLDY_VERSION})
+        return tl::unexpected(otherBuild(file, std::string(module->build.version)));
     return &module->functions;
 }
 

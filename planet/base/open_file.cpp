@@ -18,12 +18,13 @@ std::string lastSystemError() {
     return std::generic_category().message(errno);
 }
 
-Result<OpenFile> OpenFile::open(const std::filesystem::path& path, int flags, const FileCalls& calls) {
+Result<OpenFile> OpenFile::open(const std::filesystem::path& path, int flags, const FileCalls& calls,
+                                const std::string& name) {
+    const std::string& shown = name.empty() ? path.native() : name;
     const int descriptor =
         uninterrupted([&] { return calls.open(path.c_str(), flags | O_CLOEXEC, newFileMode); });
-    if (descriptor < 0)
-        return ioError(fmt::format("{}: cannot be opened: {}", path.string(), lastSystemError()));
-    return OpenFile(descriptor, path.string(), calls);
+    if (descriptor < 0) return ioError(fmt::format("{}: cannot be opened: {}", shown, lastSystemError()));
+    return OpenFile(descriptor, shown, calls);
 }
 
 OpenFile::OpenFile(int descriptor, std::string name, FileCalls calls)

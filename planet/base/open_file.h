@@ -27,8 +27,9 @@ std::string lastSystemError();
 // Owns the descriptor. Several threads may read, and write other parts of the file, at the same time.
 class OpenFile {
 public:
-    // Opens a file. flags: as for open(); O_CLOEXEC is added. The Error names the path.
-    static Result<OpenFile> open(const std::filesystem::path& path, int flags, const FileCalls& calls);
+    // Opens a file. flags: as for open(); O_CLOEXEC is added. name: for messages; empty: the path.
+    static Result<OpenFile> open(const std::filesystem::path& path, int flags, const FileCalls& calls,
+                                 const std::string& name = {});
     // Takes over an open descriptor. name: for messages.
     OpenFile(int descriptor, std::string name, FileCalls calls);
     OpenFile(OpenFile&& other) noexcept;

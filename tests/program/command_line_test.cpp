@@ -55,7 +55,7 @@ TEST(CommandLine, TheReadmeSaysWhichCommandTakesWhichSharedOption) {
     ASSERT_GE(takers.size(), 15u);
     for (const char* command :
          {"bake", "info", "verify", "probe", "shot", "fly", "bench", "sweep", "cracks", "costs", "pops",
-          "audit", "replay", "compare", "settings", "make-layers", "trace", "attach"}) {
+          "audit", "replay", "compare", "settings", "make-layers", "trace", "attach", "schedule"}) {
         const std::set<std::string> options =
             optionsOf(runWorldy(folder, std::string(command) + " --help").output);
         EXPECT_TRUE(options.contains("--json")) << command;

@@ -1,4 +1,5 @@
-// The program loads image libraries only when it opens an image (app/images/image_functions.h).
+// The program loads image libraries only when it opens an image (app/images/image_functions.h), and MPI only as one of
+// several ranks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +46,16 @@ TEST(ImageModule, aMissingModuleIsNamed) {
     EXPECT_EQ(shot.exitCode, 2);
     EXPECT_THAT(shot.errors, HasSubstr("worldy_images.so: cannot be loaded"));
     EXPECT_FALSE(std::filesystem::exists(folder / "shot.png"));
+}
+
+// A process that mpirun has started must not bake alone, or each rank would write the same file.
+TEST(MpiModule, aRankWithoutTheModuleIsTold) {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(WORLDY_BINARY, folder / "worldy");
+    const Ran ran = runShell(folder, "PMIX_RANK=0 ./worldy bake noise:ridged -o planet.chk");
+    EXPECT_EQ(ran.exitCode, 2);
+    EXPECT_THAT(ran.errors, AllOf(HasSubstr("worldy_mpi.so: cannot be loaded"), HasSubstr("-DWORLDY_MPI=ON")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "planet.chk"));
 }
 
 TEST(ImageModule, aFileThatIsNoModuleIsRefused) {

@@ -19,6 +19,7 @@
 #include "app/settings/setting_difference.h"
 #include "app/settings/view_settings.h"
 #include "planet/bake/bake_estimate.h"
+#include "planet/bake/job/unit_feed.h"
 #include "planet/measure/lod_changes.h"
 #include "planet/planet.h"
 #include "ui/model/allocations_view.h"
@@ -89,9 +90,9 @@ struct BakeView {
     // equirectangular".
     std::string lostColours{};
     std::optional<BakeRequest> running;
-    bool stopping = false;  // cancelled, but not finished yet
-    planet::BakeProgress progress;
-    std::string lastProblem;  // why the last bake failed
+    bool stopping = false;         // cancelled, but not finished yet
+    planet::JobProgress progress;  // without units if the bake runs in this program
+    std::string lastProblem;       // why the last bake failed
     std::optional<planet::BakeReport> lastReport;
     bool estimating = false;
     std::optional<planet::BakeEstimate> estimate;  // of the last EstimateBake

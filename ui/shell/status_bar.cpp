@@ -124,7 +124,7 @@ void warningCells(const EditorView& view, Cells& cells) {
                   colours.warning);
     }
     if (view.bake.running) {
-        const planet::BakeProgress& progress = view.bake.progress;
+        const planet::BakeProgress& progress = view.bake.progress.bake;
         const double total = std::max(static_cast<double>(progress.samplesTotal), 1.0);
         cells.add(fmt::format("baking {:.0f} %", 100 * static_cast<double>(progress.samplesDone) / total),
                   "See the Bake panel.", colours.good);

@@ -147,7 +147,7 @@ public:
     // Returns the Error with what has become of the finished units.
     Error explained(const Error& error) const {
         const std::size_t done = static_cast<std::size_t>(std::ranges::count_if(units_, isDone));
-        if (!began_ || team_.rank() != 0 || error.kind == ErrorKind::Cancelled || done == 0) return error;
+        if (!began_ || team_.rank() != 0 || done == 0) return error;
         return {error.kind,
                 fmt::format("{}; {} of {} units are finished and kept in {}: the same command with --resume "
                             "goes on with them",
@@ -269,7 +269,8 @@ private:
         const auto all = team_.tellAll(told);
         const std::filesystem::path temporary(
             std::string(reinterpret_cast<const char*>(all[0].data()), all[0].size()));
-        Result<OpenFile> opened = OpenFile::open(temporary, O_RDWR, settings_.bake.fileCalls);
+        Result<OpenFile> opened =
+            OpenFile::open(temporary, O_RDWR, settings_.bake.fileCalls, output_.string());
         TRY(team_.agree(opened ? Result<void>() : tl::unexpected(opened.error())));
         SpoolFiles spool(folder_, hash_, settings_.bake.fileCalls);
         Join parts{team_, plan_, spool, units_, *opened, bakeThreads(plan_.settings), [this] {
@@ -338,7 +339,7 @@ private:
         for (const std::vector<std::byte>& theirs : all) report_.ranks.push_back(rankReportFrom(theirs));
         report_.units = units_.size();
         report_.resumedUnits = resumed_;
-        for (const SpoolEntry& entry : units_) report_.finished.push_back(entry.done);
+        report_.finished = units_;
         return std::move(report_);
     }
 
@@ -366,10 +367,12 @@ Result<JobReport> bakeJob(Ranks& ranks, const HeightSource& source, const JobSet
     const Stopwatch stopwatch;
     Team team(ranks);
     const Result<JobPlan> plan = planJob(source, colour, settings.bake);
+    const double planS = stopwatch.elapsedS();
     TRY(checkSamePlan(team, plan, settings.program));
     Job job(team, *plan, settings, output, progress);
     Result<JobReport> report = job.run();
     if (!report) return tl::unexpected(job.explained(report.error()));
+    report->planS = planS;
     report->bake.seconds = stopwatch.elapsedS();
     report->bake.sampledCells = plan->tree.leafCells;
     return report;

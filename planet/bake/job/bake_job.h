@@ -44,9 +44,10 @@ struct RankReport {
 struct JobReport {
     BakeReport bake;
     std::uint64_t units = 0;
-    std::uint64_t resumedUnits = 0;      // of an earlier job
-    std::vector<RankReport> ranks;       // in their order
-    std::vector<FinishedUnit> finished;  // by unit: what each cost, for predictions (job_schedule.h)
+    std::uint64_t resumedUnits = 0;    // of an earlier job
+    double planS = 0;                  // to divide the bake into units, which each rank does
+    std::vector<RankReport> ranks;     // in their order
+    std::vector<SpoolEntry> finished;  // by unit: what each cost, for predictions (job_schedule.h)
 };
 
 // All ranks call it together with the same arguments. Returns the report on rank 0, and an empty one on the others. The

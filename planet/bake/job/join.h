@@ -10,15 +10,20 @@
 // another has written, once its call has returned.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "planet/bake/job/job_plan.h"
 #include "planet/bake/job/spool.h"
 #include "planet/bake/job/team.h"
+#include "planet/bake/subtree_merging.h"
+#include "planet/base/file_calls.h"
 #include "planet/base/open_file.h"
 #include "planet/base/result.h"
 

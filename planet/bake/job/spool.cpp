@@ -20,11 +20,11 @@ namespace planet {
 
 namespace {
 
-constexpr std::string_view magic = "WORLDYSP";
-constexpr std::uint32_t version = 1;
-constexpr std::uint64_t headerBytes = 32;
-constexpr std::uint64_t recordBytes = 64;
-constexpr std::string_view extension = ".spool";
+constexpr std::string_view spoolMagic = "WORLDYSP";
+constexpr std::uint32_t spoolVersion = 1;
+constexpr std::uint64_t spoolHeaderBytes = 32;
+constexpr std::uint64_t spoolRecordBytes = 64;
+constexpr std::string_view spoolExtension = ".spool";
 
 std::uint64_t sumOf(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
@@ -51,7 +51,7 @@ std::optional<std::uint32_t> numberOf(const std::filesystem::path& file) {
     const std::string name = file.stem().string();
     std::uint32_t number = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-    if (file.extension() != extension || error != std::errc() || end != name.data() + name.size())
+    if (file.extension() != spoolExtension || error != std::errc() || end != name.data() + name.size())
         return std::nullopt;
     return number;
 }
@@ -60,12 +60,12 @@ std::optional<std::uint32_t> numberOf(const std::filesystem::path& file) {
 
 std::filesystem::path spoolFolderOf(const std::filesystem::path& output) {
     std::filesystem::path folder = output;
-    folder += extension;
+    folder += spoolExtension;
     return folder;
 }
 
 std::filesystem::path spoolFile(const std::filesystem::path& folder, std::uint32_t number) {
-    return folder / fmt::format("{:04}{}", number, extension);
+    return folder / fmt::format("{:04}{}", number, spoolExtension);
 }
 
 Result<std::vector<std::uint32_t>> spoolNumbers(const std::filesystem::path& folder) {
@@ -89,10 +89,10 @@ Result<SpoolWriter> SpoolWriter::create(const std::filesystem::path& folder, std
     TRY_ASSIGN(auto file, OpenFile::open(spoolFile(folder, number), O_RDWR | O_CREAT | O_TRUNC, calls));
     SpoolWriter writer(std::move(file), number);
     std::vector<std::byte> header;
-    const auto name = std::as_bytes(std::span(magic));
+    const auto name = std::as_bytes(std::span(spoolMagic));
     header.assign(name.begin(), name.end());
     ByteWriter out(header);
-    out.put(version);
+    out.put(spoolVersion);
     out.put(std::uint32_t{0});
     out.put(job);
     putSum(header);
@@ -103,10 +103,10 @@ Result<SpoolWriter> SpoolWriter::create(const std::filesystem::path& folder, std
 
 Result<SpoolEntry> SpoolWriter::append(const FinishedUnit& done, std::span<const std::byte> front,
                                        std::span<const std::byte> body) {
-    const SpoolEntry entry{done,        number_,      size_ + recordBytes, front.size(),
-                           body.size(), sumOf(front), sumOf(body)};
+    const SpoolEntry entry{done,         number_,    size_ + spoolRecordBytes, front.size(), body.size(),
+                           sumOf(front), sumOf(body)};
     std::vector<std::byte> record;
-    record.reserve(recordBytes + front.size());
+    record.reserve(spoolRecordBytes + front.size());
     ByteWriter out(record);
     out.put(done.unit);
     out.put(done.samples);
@@ -129,12 +129,13 @@ Result<SpoolReader> SpoolReader::open(const std::filesystem::path& folder, std::
     SpoolReader reader(std::move(file), number);
     TRY_ASSIGN(const auto size, sizeOf(reader.file_));
     // A job that was killed while it made the file has left nothing in it.
-    if (size < headerBytes) return reader;
-    std::vector<std::byte> header(headerBytes);
+    if (size < spoolHeaderBytes) return reader;
+    std::vector<std::byte> header(spoolHeaderBytes);
     TRY(reader.file_.read(0, header));
     ByteReader in(header);
-    const bool isSpool = std::ranges::equal(in.take(magic.size()), std::as_bytes(std::span(magic))) &&
-                         in.get<std::uint32_t>() == version && endsInSum(header);
+    const bool isSpool =
+        std::ranges::equal(in.take(spoolMagic.size()), std::as_bytes(std::span(spoolMagic))) &&
+        in.get<std::uint32_t>() == spoolVersion && endsInSum(header);
     if (!isSpool)
         return badInput(
             fmt::format("{}: is no file of finished units that this version can read; remove its folder "
@@ -153,15 +154,15 @@ Result<SpoolReader> SpoolReader::open(const std::filesystem::path& folder, std::
 Result<std::vector<SpoolEntry>> SpoolReader::entries() const {
     TRY_ASSIGN(const auto size, sizeOf(file_));
     std::vector<SpoolEntry> entries;
-    std::uint64_t at = headerBytes;
-    std::vector<std::byte> record(recordBytes);
-    while (at < size && size - at >= recordBytes) {
+    std::uint64_t at = spoolHeaderBytes;
+    std::vector<std::byte> record(spoolRecordBytes);
+    while (at < size && size - at >= spoolRecordBytes) {
         TRY(file_.read(at, record));
         if (!endsInSum(record)) break;
         ByteReader in(record);
         SpoolEntry entry;
         entry.file = number_;
-        entry.offset = at + recordBytes;
+        entry.offset = at + spoolRecordBytes;
         entry.done.unit = in.get<std::uint64_t>();
         entry.done.samples = in.get<std::uint64_t>();
         entry.done.seconds = in.get<double>();

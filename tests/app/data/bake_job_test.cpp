@@ -40,7 +40,7 @@ TEST(BakeJob, LeavesAChunkFileAndReportsOnce) {
     const planet::Result<planet::BakeReport> report = waitFor(job);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_TRUE(planet::ChunkFile::open(folder.path() / "slope.chk"));
-    EXPECT_EQ(job.progress().samplesDone, job.progress().samplesTotal);
+    EXPECT_EQ(job.progress().bake.samplesDone, job.progress().bake.samplesTotal);
     EXPECT_FALSE(job.takeResult());
 }
 
@@ -143,8 +143,8 @@ TEST(BakeJob, LeavesAChunkFileWithColours) {
     EXPECT_EQ(report->colourTiles, 6u);
     EXPECT_EQ(job.colourProblem(), "");
     EXPECT_EQ(report->colourNotice, "");
-    EXPECT_EQ(job.progress().samplesTotal, 6u * 64 * 64 + 6u * 256 * 256);
-    EXPECT_EQ(job.progress().samplesDone, job.progress().samplesTotal);
+    EXPECT_EQ(job.progress().bake.samplesTotal, 6u * 64 * 64 + 6u * 256 * 256);
+    EXPECT_EQ(job.progress().bake.samplesDone, job.progress().bake.samplesTotal);
     const auto file = planet::ChunkFile::open(folder.path() / "slope.chk");
     ASSERT_TRUE(file);
     EXPECT_TRUE(file->info().colour);
@@ -193,7 +193,7 @@ TEST(BakeJob, CancelledAmongColoursItEndsWithoutAFile) {
                  .settings = {.faceSize = 65, .chunkSize = 17, .colour = {.faceSize = 16385}},
                  .output = folder.path() / "slope.chk",
                  .colour = {folder.path() / "map.ppm", true}});
-    while (job.progress().samplesDone < 6u * 64 * 64 + 1) {
+    while (job.progress().bake.samplesDone < 6u * 64 * 64 + 1) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
         ASSERT_FALSE(job.takeResult());
     }

@@ -224,7 +224,7 @@ TEST_F(SessionTest, aCancelledBakeChangesNothing) {
     const planet::Planet* before = shownPlanet(session);
     const std::size_t files = filesInCache();
     startBake(session, requestFor(source, 17, 16385), log_);
-    ASSERT_TRUE(advanceUntil(session, [&] { return bakeViewOf(session).progress.samplesDone > 0; }));
+    ASSERT_TRUE(advanceUntil(session, [&] { return bakeViewOf(session).progress.bake.samplesDone > 0; }));
     cancelBake(session);
     EXPECT_TRUE(bakeViewOf(session).stopping);
     ASSERT_TRUE(advanceUntilQuiet(session));
@@ -344,7 +344,7 @@ TEST_F(SessionTest, leavingDuringABakeLeavesNoFile) {
         Session session = sessionOf(source);
         ASSERT_TRUE(advanceUntilQuiet(session));
         startBake(session, requestFor(source, 17, 16385), log_);
-        ASSERT_TRUE(advanceUntil(session, [&] { return bakeViewOf(session).progress.samplesDone > 0; }));
+        ASSERT_TRUE(advanceUntil(session, [&] { return bakeViewOf(session).progress.bake.samplesDone > 0; }));
     }
     EXPECT_EQ(filesInCache(), 1u);
 }

@@ -264,6 +264,22 @@ bool effortControls(const EditorView& view, BakeRequest& request) {
     return packed || threads;
 }
 
+void launcherControl(BakePanelState& state) {
+    constexpr const char* explanation =
+        "A command that bakes on several processes or machines, such as \"mpirun -n 4\" or \"srun -N 8\". "
+        "The bake is "
+        "started after it, by a shell. The file is the same. It needs a build with MPI, and on several "
+        "machines a file "
+        "system that they share. Empty: the bake runs in this program.";
+    labelledControl("Run with", explanation);
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##launcher", "this program; or mpirun -n 4", state.launcher.data(),
+                             state.launcher.size());
+    noteItem("Run with");
+    tooltip(state.launcher[0] == 0 ? explanation
+                                   : fmt::format("{}\n\n{}", state.launcher.data(), explanation).c_str());
+}
+
 // Draws the controls of the source. A new source may bring other colours, which follow it.
 bool sourceSection(const EditorView& view, BakePanelState& state, BakeRequest& request) {
     const std::filesystem::path colour = request.colour;
@@ -288,6 +304,7 @@ void requestSection(const EditorView& view, BakePanelState& state, Commands& com
     changed |= finestQuantumControl(view.bake.current, request);
     changed |= colourControls(view, state.colour, request, commands);
     changed |= effortControls(view, request);
+    launcherControl(state);
     endGrey();
     if (changed) edited(request, view.frames.timeS, state);
 }
@@ -375,7 +392,8 @@ void estimateValues(const EditorView& view, const BakePanelState& state) {
 }
 
 void bakeButtons(const EditorView& view, BakePanelState& state, Commands& commands) {
-    const BakeRequest request = state.edited.value_or(view.bake.current);
+    BakeRequest request = state.edited.value_or(view.bake.current);
+    request.launcher = state.launcher.data();
     const bool same = sameFile(request, view.bake.current);
     beginGrey(!state.source.problem.empty() || !mayBake(state.colour),
               "The source or the colour image cannot be baked; the reason is shown above.");
@@ -396,23 +414,45 @@ void bakeButtons(const EditorView& view, BakePanelState& state, Commands& comman
     }
 }
 
+void launchedRows(const BakeView& bake) {
+    const planet::JobProgress& job = bake.progress;
+    const bool begun = job.unitsTotal > 0;
+    valueRow("Run with", bake.running->launcher, "The command that has started the bake.");
+    valueRow("Units", begun ? fmt::format("{} of {}", job.unitsDone, job.unitsTotal) : "...",
+             "Parts of the bake that one process does at a time. Finished ones survive the bake.");
+    valueRow("Slowest rank",
+             begun ? fmt::format("{} of {}, {} samples/s", job.slowestRank, job.ranks,
+                                 countText(job.slowestSamplesPerS))
+                   : "...",
+             "The process that has done the fewest samples. They get units as they ask for them, so a slow "
+             "one does not "
+             "hold up the others.");
+}
+
 void progressSection(const BakeView& bake, Commands& commands) {
-    const planet::BakeProgress& progress = bake.progress;
+    const planet::BakeProgress& progress = bake.progress.bake;
     const bool begun = progress.samplesTotal > 0;
     const double share =
         begun ? static_cast<double>(progress.samplesDone) / static_cast<double>(progress.samplesTotal) : 0;
-    usageBar(share, begun ? fmt::format("{:.0f} %", 100 * share) : std::string("opening the source"));
+    const bool isLaunched = !bake.running->launcher.empty();
+    usageBar(share, begun ? fmt::format("{:.0f} %", 100 * share)
+                          : std::string(isLaunched ? "starting" : "opening the source"));
     if (beginValues("progress")) {
         valueRow("Baking", sourceName(bake.running->source), bake.running->source.string().c_str());
         valueRow("Rate", begun ? fmt::format("{} samples/s", countText(progress.samplesPerS)) : "...",
                  "Finest-level samples and colour texels per second, since the bake began.");
         valueRow("Time left", begun ? durationText(progress.remainingS) : "...",
                  "Estimated from the current rate.");
+        if (isLaunched) launchedRows(bake);
         endValues();
     }
     beginGrey(bake.stopping, "The bake is stopping.");
-    if (button(bake.stopping ? "Stopping..." : "Cancel",
-               "Cancels the bake and discards its output; the open planet stays."))
+    if (button(
+            bake.stopping ? "Stopping..." : "Cancel",
+            isLaunched
+                ? "Interrupts the command; the open planet stays. Its finished units are kept: the next bake "
+                  "of the same source with the same settings goes on with them."
+                : "Cancels the bake and discards its output; the open planet stays."))
         commands.push_back(CancelBake{});
     endGrey();
 }

@@ -2,6 +2,7 @@
 // itself.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 
@@ -19,6 +20,7 @@ struct BakePanelState {
     ColourEdit colour;
     PreviewBoxState preview;
     std::optional<double> estimateAtS;  // when to request an estimate; none: already requested
+    std::array<char, 512> launcher{};   // the command that starts bakes on several ranks; empty: none
 };
 
 // Fills the current window.
