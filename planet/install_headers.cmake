@@ -2,7 +2,7 @@
 # `cmake --install`, so that it follows the includes as they are then. Given: SOURCE (this folder), DESTINATION.
 cmake_minimum_required(VERSION 3.23)
 set(pending
-  planet.h planet_tools.h spans/span_recorder.h chunk_explanation.h select/lod_select.h select/governor.h base/atomic_file.h
+  planet.h planet_tools.h spans/span_recorder.h chunk_explanation.h select/lod_select.h select/governor.h select/prediction.h base/atomic_file.h
   source/height_source.h source/colour_source.h bake/bake.h bake/file_report.h
   measure/true_error.h measure/edge_gaps.h measure/pop_meter.h measure/pick.h
   trace/lod_trace.h

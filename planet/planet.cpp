@@ -30,6 +30,8 @@ Result<void> checkSettings(const PagingSettings& settings) {
     }
     TRY(checkRange("colour share", settings.colourShare, 0.01, 0.9));
     TRY(checkRange("normal share", settings.normalShare, 0.01, 0.9));
+    TRY(checkRange("prefetch horizon", settings.prefetch.horizonS, 0.1, 60.0, "s"));
+    TRY(checkRange("prefetch share", settings.prefetch.share, 0.01, 1.0));
     TRY(checkRange("retries", settings.retry.retries, 0, 10));
     TRY(checkRange("retry delay", settings.retry.delayS, 0.0, 60.0, "s"));
     return checkBadDisk(settings.badDisk);
@@ -39,6 +41,7 @@ void applyTo(Pager& pager, const PagingSettings& settings) {
     pager.setBadDisk(settings.badDisk);
     pager.setPaused(settings.paused);
     pager.setThreads(settings.loaderThreads);
+    pager.setPrefetchShare(settings.prefetch.share);
 }
 
 // The slots for chunks and tiles.
@@ -162,6 +165,7 @@ void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upl
     lastStep.elapsedS = elapsedS;
     views.resize(inputs.size());
     for (std::size_t i = 0; i < inputs.size(); ++i) views[i].input = inputs[i];
+    followCourses(elapsedS);
 
     {
         const SpanScope span("upload");
@@ -170,6 +174,7 @@ void PlanetState::step(std::span<const ViewInput> inputs, const UploadChunk& upl
         if (normalRoots.follow(normals, run)) selectAgain();
         dropYielding();
         uploadFinished(upload);
+        measureBacklog(elapsedS);
         lastStep.times.uploadMs = stage.elapsedMs();
     }
     {
@@ -242,14 +247,17 @@ bool Planet::settleSimulated(std::span<const ViewInput> views, const UploadChunk
     }
 }
 
-// Returns whether nothing is pending. A block that waits for room can still arrive if another block is about
+// Returns whether nothing that a view wants is pending. A block that waits for room can still arrive if another is about
 // to be dropped.
 bool PlanetState::isSettled() const {
     const auto all = kinds();
     const bool roomIsComing =
         std::any_of(all.begin(), all.end(), [](const BlockPaging* kind) { return kind->roomIsComing(); });
-    return run.frame > 0 && !changed && pager->status().idle() && !roomIsComing && !normalsArePending() &&
-           !untilRetryS();
+    std::size_t unwanted = 0;
+    for (const BlockPaging* kind : all) unwanted += kind->pendingPrefetches();
+    const PagerStatus status = pager->status();
+    const bool isIdle = status.queued + status.loading + status.finished <= unwanted;
+    return run.frame > 0 && !changed && isIdle && !roomIsComing && !normalsArePending() && !untilRetryS();
 }
 
 bool Planet::settled() const {
@@ -291,6 +299,11 @@ void Planet::setExaggeration(double factor) {
 
 void Planet::uploadAll(const UploadChunk& upload) const {
     forEachNode(tree(), [&](NodeIndex, const ChunkNode& node) { upload(node.slot, *node.heights); });
+}
+
+void Planet::announce(std::span<const AnnouncedView> path, std::size_t view) {
+    assert(view < maxViews);
+    state_->announce(path, view);
 }
 
 std::vector<TileChange> Planet::takeTileChanges(BlockKind kind) {

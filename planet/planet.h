@@ -84,6 +84,13 @@ public:
     // Uploads every resident chunk, for a new renderer.
     void uploadAll(const UploadChunk& upload) const;
 
+    // Announces where a view will be, so that its blocks are loaded early: points of its path, in any order,
+    // or just a destination. view: its index in step(); the announced views get its settings. Replaces what
+    // was announced for that view, and takes effect at the next step. A point is forgotten once its time has
+    // passed. No effect unless PrefetchSettings::mode is Announced. At most maxAnnounced points; the rest are
+    // ignored, the latest first.
+    void announce(std::span<const AnnouncedView> path, std::size_t view = 0);
+
     // Returns the changes to the tiles of colours or normals since the last call. Call it after each step in
     // which they are drawn.
     std::vector<TileChange> takeTileChanges(BlockKind kind);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <optional>
+#include <unordered_set>
 #include <utility>
 
 #include "planet/planet_state.h"
@@ -14,10 +16,6 @@ namespace {
 
 constexpr std::uint64_t noFrame = std::numeric_limits<std::uint64_t>::max();  // later than any frame
 
-const std::vector<ChildrenRequest>& requestsIn(const PlanetView& view, BlockKind kind) {
-    return kind == BlockKind::Heights ? view.selection.requests : view.tiles(kind).requests;
-}
-
 const std::vector<ChildrenRequest>& splitsIn(const PlanetView& view, BlockKind kind) {
     return kind == BlockKind::Heights ? view.selection.splits : view.tiles(kind).splits;
 }
@@ -27,7 +25,22 @@ std::vector<MergedRequest> mergeSplits(const std::vector<PlanetView>& views, Blo
         views, [&](const PlanetView& view) -> auto& { return splitsIn(view, kind); });
 }
 
+void markPassing(std::vector<MergedRequest>& wanted, const std::unordered_set<NodeIndex>& lasting) {
+    for (MergedRequest& one : wanted)
+        if (!lasting.contains(one.parent)) one.urgency = PagingUrgency::Passing;
+}
+
 }  // namespace
+
+const std::vector<ChildrenRequest>& requestsIn(const PlanetView& view, BlockKind kind) {
+    return kind == BlockKind::Heights ? view.selection.requests : view.tiles(kind).requests;
+}
+
+void sortByPriority(std::vector<MergedRequest>& requests) {
+    std::sort(requests.begin(), requests.end(), [](const MergedRequest& a, const MergedRequest& b) {
+        return a.priority != b.priority ? a.priority > b.priority : a.parentId < b.parentId;
+    });
+}
 
 BudgetShares sharesOf(const PagingSettings& settings, bool hasColours, bool hasNormals) {
     // Enough for the heights under one tile and its neighbours, a few hundred blocks.
@@ -75,9 +88,7 @@ std::vector<MergedRequest> mergeRequests(const std::vector<PlanetView>& views, c
         }
         all.resize(kept);
     }
-    std::sort(all.begin(), all.end(), [](const MergedRequest& a, const MergedRequest& b) {
-        return a.priority != b.priority ? a.priority > b.priority : a.parentId < b.parentId;
-    });
+    sortByPriority(all);
     return all;
 }
 
@@ -102,6 +113,7 @@ void PlanetState::uploadFinished(const UploadChunk& upload) {
         if (!load) return;
         const SpanScope span("upload block", load->request.block());
         paging.loadSeconds += load->seconds;
+        ++backlog.ended;
         of(load->request.kind).finish(std::move(*load), run, upload);
     } while (settings.time != PagingTime::Clock || uploading.elapsedMs() < settings.uploadLimitMs);
 }
@@ -137,16 +149,31 @@ void PlanetState::page() {
     for (const BlockPaging* kind : kinds())
         if (kind->isOn()) requests[static_cast<std::size_t>(kind->kind())] = mergeFor(kind->kind());
     MergedRequests& ofHeights = requests[static_cast<std::size_t>(BlockKind::Heights)];
+    const bool prefetches = settings.prefetch.mode != PrefetchMode::Off;
+    const Predicted predicted = prefetches ? predict() : Predicted{};
+    if (prefetches && settings.prefetch.lastingFirst) {
+        for (std::size_t kind = 0; kind < requests.size(); ++kind)
+            markPassing(requests[kind].wanted, predicted.lasting[kind]);
+    }
 
     pager->withQueue([&](PagingQueue& queue) {
         noteTaken(queue);
         heights.markUsed(queue, selections, run);
         for (std::size_t kind = 0; kind < requests.size(); ++kind)
             kinds()[kind]->renew(queue, requests[kind].wanted, run);
+        for (std::size_t kind = 0; kind < requests.size(); ++kind)
+            kinds()[kind]->renewPrefetches(queue, predicted.wanted[kind], run);
         for (const PagingRequest& stale : queue.cancelNotRenewed(PagingType::PageIn, run.frame))
             of(stale.kind).withdraw(stale, run);
         for (std::size_t kind = 0; kind < requests.size(); ++kind)
             kinds()[kind]->request(queue, requests[kind], run);
+        backlog.queued = queue.count(PagingType::PageIn) - queue.prefetches();
+        if (!prefetches) return;
+        heights.markPredicted(queue, predicted.touched[static_cast<std::size_t>(BlockKind::Heights)], run);
+        for (TilePaging* tiles : {&colours, &normals})
+            tiles->markPredicted(predicted.touched[static_cast<std::size_t>(tiles->kind())], run);
+        for (std::size_t kind = 0; kind < requests.size(); ++kind)
+            kinds()[kind]->prefetch(queue, predicted.wanted[kind], run);
     });
     if (!heights.lacksRoom()) return;
     ofHeights.splits = mergeSplits(views, BlockKind::Heights);
@@ -154,9 +181,11 @@ void PlanetState::page() {
 }
 
 void PlanetState::count() {
-    const auto counters = pager->readQueue([](const PagingQueue& queue) { return queue.counters(); });
+    const auto [counters, prefetches] = pager->readQueue([](const PagingQueue& queue) {
+        return std::pair(queue.counters(), static_cast<std::uint32_t>(queue.prefetches()));
+    });
     const PagerStatus status = pager->status();
-    paging.queued = status.queued;
+    paging.queued = status.queued - std::min(status.queued, prefetches);
     paging.loading = status.loading + status.finished;
     paging.requested = counters.added[static_cast<std::size_t>(PagingType::PageIn)];
     paging.merged = counters.merged;
@@ -242,6 +271,7 @@ void PlanetState::reset() {
     run.sinceResetS = 0;
     for (BlockPaging* kind : kinds()) kind->reset(run);
     views.assign(1, {});
+    forgetCourses();
     run.frame = 0;
     changed = true;
     run.log.moves = {};

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "planet/base/stopwatch.h"
@@ -16,9 +17,34 @@
 #include "planet/paging/pager.h"
 #include "planet/paging/tile_paging.h"
 #include "planet/planet_types.h"
+#include "planet/select/prediction.h"
 #include "planet/select/tile_select.h"
 
 namespace planet {
+
+// Where one view has been, and where it is announced to be.
+struct ViewCourse {
+    ViewHistory history;
+    std::vector<AnnouncedView> announced;  // ascending times, seconds from the last step
+};
+
+// What views are predicted to want and to use, by kind of blocks.
+struct Predicted {
+    std::array<std::vector<MergedRequest>, blockKindCount> wanted;
+    std::array<std::vector<NodeIndex>, blockKindCount> touched;
+    // The parents of the blocks that a view will want when what it requests now has arrived.
+    std::array<std::unordered_set<NodeIndex>, blockKindCount> lasting;
+};
+
+// How long a block waits for its read while loaders fall behind: by Little's law, the number of queued blocks over the
+// rate of reads. All of it is known to a replay too.
+struct Backlog {
+    std::size_t queued = 0;  // blocks that views want, at the last step
+    std::size_t ended = 0;   // reads, in this step
+    double readsPerS = 0;    // over the last seconds in which loaders were busy; 0: unknown
+
+    double waitS() const { return readsPerS > 0 ? static_cast<double>(queued) / readsPerS : 0; }
+};
 
 struct PlanetState {
     using Clock = std::chrono::steady_clock;
@@ -30,6 +56,8 @@ struct PlanetState {
     std::shared_ptr<const ChunkFile> file;
     std::optional<ColourPyramid> colour;
     std::vector<PlanetView> views{1};
+    std::array<ViewCourse, maxViews> courses;
+    Backlog backlog;
     PagingRun run;
     ChunkPaging heights;
     TilePaging colours{BlockKind::Colours};  // on only with a pyramid
@@ -59,6 +87,9 @@ struct PlanetState {
     void page();
     void count();
 
+    void announce(std::span<const AnnouncedView> path, std::size_t view);
+    void forgetCourses();
+
     // Returns the seconds until the first needed block may be retried; nothing if none waits for a retry.
     std::optional<double> untilRetryS() const;
     bool normalsArePending() const { return normalRoots.arePending(normals); }
@@ -75,10 +106,19 @@ struct PlanetState {
     void requeue(std::vector<PagingRequest> givenUp);
 
 private:
+    void followCourses(double elapsedS);
+    std::vector<AnnouncedView> viewsAhead(std::size_t view) const;
+    Predicted predict() const;
+    void measureBacklog(double elapsedS);
     MergedRequests mergeFor(BlockKind kind) const;
     void noteTaken(const PagingQueue& lockedQueue);
     void selectAgain();
 };
+
+// Returns what a view lacks.
+const std::vector<ChildrenRequest>& requestsIn(const PlanetView& view, BlockKind kind);
+// Sorts by priority, highest first; ties by block.
+void sortByPriority(std::vector<MergedRequest>& requests);
 
 // Merge the requests or splits of all views by parent, sorted by priority, highest first.
 using RequestsOf = std::function<const std::vector<ChildrenRequest>&(const PlanetView&)>;

@@ -78,6 +78,7 @@ void PlanetTools::reset() {
 
 void PlanetTools::forgetSelections() {
     for (PlanetView& view : state_.views) view.selection = {};
+    for (ViewCourse& course : state_.courses) course.history.clear();
     state_.changed = true;
 }
 

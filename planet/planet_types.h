@@ -43,6 +43,15 @@ struct ViewInput {
     TileSettings normals{};
 };
 
+inline constexpr std::size_t maxAnnounced = 64;
+inline constexpr double latestAnnouncedS = 3600;
+
+// A view that a camera will have.
+struct AnnouncedView {
+    View view;
+    double inS = 0;  // seconds from the announcement, in the time of step(), [0, latestAnnouncedS]
+};
+
 // One view of the last step.
 struct PlanetView {
     ViewInput input;

@@ -249,8 +249,8 @@ void followCamera(CameraController& camera, const Viewport& viewport, const Came
     const bool placed = takeJump(*camera.rig);
     if (!camera.lodFrozen) camera.lodView = mainView(camera, viewport, settings);
     const glm::dvec3& toM = camera.lodView.eyeM;
-    camera.jumped =
-        lodViewPlaced || (toM != fromM && (placed || isCameraJump(fromM, toM, camera.radiusM, passedS)));
+    camera.jumped = lodViewPlaced ||
+                    (toM != fromM && (placed || planet::isCameraJump(fromM, toM, camera.radiusM, passedS)));
 }
 
 planet::View mainView(const CameraController& camera, const Viewport& viewport,

@@ -434,8 +434,8 @@ void replayFrame(RecordingController& controller, Scene& scene, const ReplayCont
             context.instruments.changes.add(selection, context.frames.timeS);
             const glm::dvec3& toM = replayed.view().eyeM;
             const double passedS = std::max(replayed.timeS() - pops.meter.lastTimeS(), 0.0);
-            camera.jumped =
-                isCameraJump(std::exchange(fromM, toM), toM, scene.planet->tree().shape.radiusM, passedS);
+            camera.jumped = planet::isCameraJump(std::exchange(fromM, toM), toM,
+                                                 scene.planet->tree().shape.radiusM, passedS);
             measurePops(scene, replayed.view(), replayed.timeS(), camera.jumped, pops);
         },
         [&](const ViewSettings& recorded, bool pagingPaused) {

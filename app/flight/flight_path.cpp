@@ -103,20 +103,6 @@ double durationS(const FlightPath& path) {
     return path.keys.back().timeS - path.keys.front().timeS;
 }
 
-bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM, double seconds) {
-    constexpr double spanS = 0.1;
-    constexpr double mostArcRad = glm::radians(5.0);
-    const double arcRad = std::atan2(glm::length(glm::cross(fromM, toM)), glm::dot(fromM, toM));
-    const auto heightM = [&](const glm::dvec3& eyeM) {
-        return std::max(glm::length(eyeM) - radiusM, radiusM / 1000);
-    };
-    const double low = std::min(heightM(fromM), heightM(toM));
-    const double high = std::max(heightM(fromM), heightM(toM));
-    const double spans = std::max(seconds / spanS, 1.0);
-    return arcRad > spans * mostArcRad || std::log(high / low) > spans * std::log(10) ||
-           arcRad * radiusM > spans * high;
-}
-
 bool jumpsBetween(const FlightPath& path, double fromS, double toS) {
     return std::any_of(path.keys.begin(), path.keys.end(), [&](const FlightKey& key) {
         return key.jumpedTo && key.timeS > fromS && key.timeS <= toS;

@@ -28,11 +28,6 @@ glm::dvec3 directionOf(const FlightKey& key);
 // Returns the seconds from the first key to the last.
 double durationS(const FlightPath& path);
 
-// Returns true if the eye jumps between two frames: it moves farther over the ground than its greater height
-// above the radius, or by more than 5 degrees of arc, or its height changes more than tenfold. Heights count
-// as at least a thousandth of the radius. In a frame of N tenths of a second, N > 1, the three limits are N
-// times as large. Eyes: metres from the planet's centre; seconds >= 0.
-bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM, double seconds);
 // Returns true if the path jumps at a time in (fromS, toS].
 bool jumpsBetween(const FlightPath& path, double fromS, double toS);
 

@@ -147,8 +147,8 @@ planet::CameraPose flownPose(const FlightRecord& record, std::size_t frame) {
 bool isJump(const FlightRecord& record, std::size_t frame) {
     if (frame == 0) return false;
     const auto eyeM = [&](std::size_t i) { return record.frames[i].views[0].view.eyeM; };
-    return isCameraJump(eyeM(frame - 1), eyeM(frame), record.data.shape.radiusM,
-                        record.frames[frame].elapsedS);
+    return planet::isCameraJump(eyeM(frame - 1), eyeM(frame), record.data.shape.radiusM,
+                                record.frames[frame].elapsedS);
 }
 
 }  // namespace

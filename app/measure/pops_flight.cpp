@@ -99,7 +99,7 @@ Result<PopsFlight> flyForPops(planet::Planet& planet, const FlightPath& path, co
         const double timeS = startS + i * stepS;
         const glm::dvec3 beforeM = std::exchange(fromM, view.eyeM);
         const bool jumped = jumpsBetween(path, timeS - stepS, timeS) ||
-                            isCameraJump(beforeM, view.eyeM, planet.tree().shape.radiusM, stepS);
+                            planet::isCameraJump(beforeM, view.eyeM, planet.tree().shape.radiusM, stepS);
         meter.add(planet.tree(), planet.selection(), view, lod, i * stepS,
                   {.cameraJumped = i > 0 && jumped, .seaM = seaM});
         // The meter drops events after some minutes, so they are copied here.

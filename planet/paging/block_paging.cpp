@@ -5,15 +5,38 @@
 
 namespace planet {
 
+namespace {
+
+// Bounds the cost of a step, and the blocks that are requested too early. Loaders never wait for a step with so
+// many in the queue.
+constexpr std::size_t mostPrefetches = 64;
+
+}  // namespace
+
 void BlockPaging::renew(PagingQueue& queue, const std::vector<MergedRequest>& wanted,
                         const PagingRun& run) const {
     for (const MergedRequest& one : wanted) {
         if (!queue.find({one.parentId, kind_})) continue;
         queue.submit({.parent = one.parentId,
                       .kind = kind_,
+                      .urgency = one.urgency,
                       .priority = one.priority,
                       .renewedFrame = run.frame,
                       .viewPriority = one.viewPriority});
+    }
+}
+
+void BlockPaging::renewPrefetches(PagingQueue& queue, const std::vector<MergedRequest>& predicted,
+                                  const PagingRun& run) {
+    for (const MergedRequest& one : predicted) {
+        const PagingRequest* pending = queue.find({one.parentId, kind_});
+        if (!pending || pending->renewedFrame == run.frame) continue;  // a view wants it
+        queue.submit({.parent = one.parentId,
+                      .kind = kind_,
+                      .urgency = PagingUrgency::Prefetch,
+                      .priority = one.priority,
+                      .renewedFrame = run.frame});
+        pendingPrefetches_.insert(one.parentId);
     }
 }
 
@@ -22,6 +45,7 @@ void BlockPaging::request(PagingQueue& queue, const MergedRequests& requests, Pa
     failures_.beginStep();
     beginRequests();
     for (const MergedRequest& one : requests.wanted) {
+        if (!pendingPrefetches_.empty()) pendingPrefetches_.erase(one.parentId);
         if (!failures_.mayAsk(one.parentId, stateOf(one.parent), run.sinceResetS)) continue;
         if (!reserveRoom(queue, one, requests.splits, run)) {
             ++counters_.budgetWaits;
@@ -33,27 +57,50 @@ void BlockPaging::request(PagingQueue& queue, const MergedRequests& requests, Pa
             addStandIn(one.parent, run);
             continue;
         }
-        PagingRequest request{.parent = one.parentId,
-                              .kind = kind_,
-                              .priority = one.priority,
-                              .renewedFrame = run.frame,
-                              .askedAtS = run.nowS,
-                              .viewPriority = one.viewPriority,
-                              .ticket = run.nextTicket++};
-        describe(one.parent, request);
-        if (run.log.keepsMoves) run.log.moves.requested.push_back(request.block());
-        queue.submit(std::move(request));
+        queuePageIn(queue, one, one.urgency, run);
     }
 }
 
-// Reserves free slots first, then those of a block that may be evicted, then those of a page-in with a lower
-// priority.
+void BlockPaging::queuePageIn(PagingQueue& queue, const MergedRequest& one, PagingUrgency urgency,
+                              PagingRun& run) {
+    PagingRequest request{.parent = one.parentId,
+                          .kind = kind_,
+                          .urgency = urgency,
+                          .priority = one.priority,
+                          .renewedFrame = run.frame,
+                          .askedAtS = run.nowS,
+                          .viewPriority = one.viewPriority,
+                          .ticket = run.nextTicket++};
+    describe(one.parent, request);
+    if (run.log.keepsMoves) run.log.moves.requested.push_back(request.block());
+    queue.submit(std::move(request));
+}
+
+void BlockPaging::prefetch(PagingQueue& queue, const std::vector<MergedRequest>& predicted, PagingRun& run) {
+    for (const MergedRequest& one : predicted) {
+        if (pendingPrefetches_.size() >= mostPrefetches) return;
+        // A failed block waits until a view wants it.
+        if (stateOf(one.parent) != ChildrenState::Absent || failures_.isPermanent(one.parentId)) continue;
+        if (free_.size() <= reserved_ && !makeRoomForPrefetch(queue, run)) return;
+        ++reserved_;
+        changeState(stateOf(one.parent), ChildrenState::Requested);
+        pendingPrefetches_.insert(one.parentId);
+        queuePageIn(queue, one, PagingUrgency::Prefetch, run);
+    }
+}
+
+// Reserves free slots first, then those of a queued prefetch, then those of a block that may be evicted, then
+// those of a less urgent page-in.
 bool BlockPaging::reserveRoom(PagingQueue& queue, const MergedRequest& wanted,
                               const std::vector<MergedRequest>& splits, PagingRun& run) {
-    if (free_.size() <= reserved_ && !makeRoom(queue, wanted, splits, run)) {
+    if (free_.size() <= reserved_) {
         const PagingRequest* least = queue.worst(PagingType::PageIn, kind_);
-        if (!least || least->priority >= static_cast<double>(wanted.priority)) return false;
-        withdraw(*queue.cancel(least->block()), run);
+        const bool yieldsPrefetch = least && least->isPrefetch();
+        if (yieldsPrefetch || !makeRoom(queue, wanted, splits, run)) {
+            if (!least || !isMoreUrgent(wanted.urgency, wanted.priority, least->urgency, least->priority))
+                return false;
+            withdraw(*queue.cancel(least->block()), run);
+        }
     }
     ++reserved_;
     return true;
@@ -64,22 +111,33 @@ void BlockPaging::withdraw(const PagingRequest& cancelled, PagingRun& run) {
     assert(parent != noNode && reserved_ > 0);
     changeState(stateOf(parent), ChildrenState::Absent);
     --reserved_;
+    pendingPrefetches_.erase(cancelled.parent);
     run.log.ended(cancelled, PagingOutcome::Cancelled, run.nowS);
 }
 
 void BlockPaging::finish(FinishedLoad&& load, PagingRun& run, const UploadChunk& upload) {
     counters_.bytesRead += load.bytes;
-    if (!isKept(load.request)) return run.log.arrived(load, PagingOutcome::Cancelled, run.nowS);
+    if (load.request.isPrefetch()) counters_.prefetch.bytes += load.bytes;
+    if (!isKept(load.request)) {
+        if (load.request.isPrefetch()) counters_.prefetch.wastedBytes += load.bytes;
+        return run.log.arrived(load, PagingOutcome::Cancelled, run.nowS);
+    }
     // The parent is still resident, because dropping it would have discarded the load.
     const NodeIndex parent = find(load.request.parent);
     assert(parent != noNode && stateOf(parent) == ChildrenState::Requested && reserved_ > 0);
     --reserved_;
+    const bool isUnwanted = pendingPrefetches_.erase(load.request.parent) > 0;
     if (!load.block) return fail(parent, load, std::move(load.block.error()), run);
     if (auto checked = check(parent, *load.block); !checked)
         return fail(parent, load, std::move(checked.error()), run);
     failures_.forget(load.request.parent);
-    addResident(parent, *std::move(load.block), run, upload);
+    // A wanted block counts as used by the frame that requested it, in case this frame no longer uses it.
+    addResident(parent, *std::move(load.block), isUnwanted ? predictedUse(run) : run.frame - 1, run, upload);
     ++counters_.loaded;
+    if (load.request.isPrefetch()) {
+        ++counters_.prefetch.blocks;
+        unusedPrefetches_[load.request.parent] = load.bytes;
+    }
     run.log.arrived(load, PagingOutcome::Loaded, run.nowS);
 }
 
@@ -109,11 +167,14 @@ void BlockPaging::discardReads(const PagingRun& run) {
     }
     oldestTicketKept_ = run.nextTicket;
     reserved_ = 0;
+    pendingPrefetches_.clear();
 }
 
 void BlockPaging::reset(PagingRun& run) {
     failures_.clear();
     reserved_ = 0;
+    pendingPrefetches_.clear();
+    wastePrefetches();
     if (isOn()) resetBlocks(run);
     oldestTicketKept_ = run.nextTicket;
     counters_.budgetWaits = 0;
@@ -142,6 +203,7 @@ void BlockPaging::count() {
     counters_.awaitingRetry = static_cast<std::uint32_t>(failures_.count() - failures_.countPermanent());
     counters_.resident = residentCount();
     counters_.capacity = capacity_;
+    counters_.prefetch.pending = static_cast<std::uint32_t>(pendingPrefetches_.size());
 }
 
 void BlockPaging::resetSlots(std::uint32_t capacity, std::uint32_t firstFree) {
@@ -169,7 +231,29 @@ void BlockPaging::recallFailure(const ChunkId& id, ChildrenState& state, double 
 
 void BlockPaging::noteEviction(const PagingRequest& request, bool wasLoaded, PagingRun& run) {
     if (wasLoaded) ++counters_.evicted;
+    dropUnused(request.parent);
     run.log.ended(request, PagingOutcome::Evicted, run.nowS);
+}
+
+void BlockPaging::noteUse(const ChunkId& parent) {
+    if (unusedPrefetches_.empty()) return;
+    const auto found = unusedPrefetches_.find(parent);
+    if (found == unusedPrefetches_.end()) return;
+    ++counters_.prefetch.hits;
+    counters_.prefetch.hitBytes += found->second;
+    unusedPrefetches_.erase(found);
+}
+
+void BlockPaging::dropUnused(const ChunkId& parent) {
+    const auto found = unusedPrefetches_.find(parent);
+    if (found == unusedPrefetches_.end()) return;
+    ++counters_.prefetch.wasted;
+    counters_.prefetch.wastedBytes += found->second;
+    unusedPrefetches_.erase(found);
+}
+
+void BlockPaging::wastePrefetches() {
+    while (!unusedPrefetches_.empty()) dropUnused(unusedPrefetches_.begin()->first);
 }
 
 }  // namespace planet

@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "planet/base/result.h"
@@ -28,6 +30,7 @@ struct MergedRequest {
     ChunkId parentId;
     float priority = 0;  // the largest of viewPriority
     std::array<float, maxViews> viewPriority{};
+    PagingUrgency urgency = PagingUrgency::Lasting;
 };
 
 // The requests of a step, sorted by priority, highest first.
@@ -64,7 +67,16 @@ public:
     void renew(PagingQueue& queue, const std::vector<MergedRequest>& wanted, const PagingRun& run) const;
     // Queues page-ins for the wanted blocks that are not pending, as far as there is room.
     void request(PagingQueue& queue, const MergedRequests& requests, PagingRun& run);
-    // Reverts request() for a page-in of this kind that was removed from the queue before its read.
+    // Keeps pending page-ins of blocks that are only predicted to be wanted, as prefetches. Call it after
+    // renew().
+    void renewPrefetches(PagingQueue& queue, const std::vector<MergedRequest>& predicted,
+                         const PagingRun& run);
+    // Queues prefetches for predicted blocks, as far as there is room without the blocks that a view or the
+    // prediction uses. Call it after request().
+    void prefetch(PagingQueue& queue, const std::vector<MergedRequest>& predicted, PagingRun& run);
+    // Returns the number of prefetches that are queued or being read, and that no view has wanted since.
+    std::size_t pendingPrefetches() const { return pendingPrefetches_.size(); }
+    // Reverts request() or prefetch() for a page-in of this kind that was removed from the queue before its read.
     void withdraw(const PagingRequest& cancelled, PagingRun& run);
     // Returns whether the read of a request of this kind will be used.
     bool isKept(const PagingRequest& request) const { return request.ticket >= oldestTicketKept_; }
@@ -100,6 +112,22 @@ protected:
     void recallFailure(const ChunkId& id, ChildrenState& state, double sinceResetS) const;
     void forgetRetryTime() { failures_.beginStep(); }
     void noteEviction(const PagingRequest& request, bool wasLoaded, PagingRun& run);
+    // Notes that a view uses the children of a node, for the counters of prefetches.
+    void noteUse(const ChunkId& parent);
+    // Counts all prefetched blocks that no view has wanted as wasted, because they are dropped without
+    // noteEviction().
+    void wastePrefetches();
+    // Returns the frame of last use for a block that is only predicted to be used: views may take its room at
+    // once, but every block of earlier frames goes first.
+    static std::uint64_t predictedUse(const PagingRun& run) {
+        return run.frame > framesKept + 1 ? run.frame - framesKept - 1 : 0;
+    }
+    // Returns the earliest frame of last use that a block has while it is predicted to be used. It is renewed
+    // only when it gets older, because that moves a page-out in the queue.
+    static std::uint64_t oldestPredictedUse(const PagingRun& run) {
+        constexpr std::uint64_t frames = 16;
+        return predictedUse(run) > frames ? predictedUse(run) - frames : 0;
+    }
 
 private:
     virtual NodeIndex find(const ChunkId& id) const = 0;  // noNode if it is not resident
@@ -111,10 +139,13 @@ private:
     // Evicts a block in favour of a wanted one. Returns false if none may be evicted.
     virtual bool makeRoom(PagingQueue& queue, const MergedRequest& wanted,
                           const std::vector<MergedRequest>& splits, PagingRun& run) = 0;
+    // Evicts a block in favour of a prefetch. Returns false if only blocks are left that are in use or predicted
+    // to be.
+    virtual bool makeRoomForPrefetch(PagingQueue& queue, PagingRun& run) = 0;
     // Checks a block before it becomes resident.
     virtual Result<void> check(NodeIndex parent, const LoadedBlock& block) const = 0;
-    virtual void addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
-                             const UploadChunk& upload) = 0;
+    virtual void addResident(NodeIndex parent, LoadedBlock&& block, std::uint64_t lastUsedFrame,
+                             PagingRun& run, const UploadChunk& upload) = 0;
     virtual void beginRequests() {}  // called at the beginning of request()
     // Shows a stand-in for a block that has failed for good. Heights and normals have none.
     virtual bool hasStandIn() const { return false; }
@@ -122,6 +153,8 @@ private:
     virtual void dropStandIn(NodeIndex) {}
     virtual void resetBlocks(PagingRun& run) = 0;  // this kind's part of reset()
 
+    void queuePageIn(PagingQueue& queue, const MergedRequest& one, PagingUrgency urgency, PagingRun& run);
+    void dropUnused(const ChunkId& parent);
     bool reserveRoom(PagingQueue& queue, const MergedRequest& wanted,
                      const std::vector<MergedRequest>& splits, PagingRun& run);
     void fail(NodeIndex parent, const FinishedLoad& load, Error error, PagingRun& run);
@@ -134,6 +167,8 @@ private:
     std::uint64_t oldestTicketKept_ = 1;  // results of older reads are discarded
     BlockFailures failures_;
     BlockCounters counters_;
+    std::unordered_set<ChunkId> pendingPrefetches_;
+    std::unordered_map<ChunkId, std::uint32_t> unusedPrefetches_;  // resident; their bytes
 };
 
 // Returns whether no node of a group of four has children that are resident or requested.

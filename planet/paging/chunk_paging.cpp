@@ -57,8 +57,8 @@ Result<void> ChunkPaging::check(NodeIndex parent, const LoadedBlock& block) cons
     });
 }
 
-void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
-                              const UploadChunk& upload) {
+void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, std::uint64_t lastUsedFrame,
+                              PagingRun& run, const UploadChunk& upload) {
     SiblingBlock& children = std::get<SiblingBlock>(block);
     std::array<std::uint32_t, quadrantCount> slots{};
     for (std::uint32_t slot = takeSlots(); std::uint32_t & of : slots) of = slot++;
@@ -67,8 +67,7 @@ void ChunkPaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& 
     ++blocksLoaded_;
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
         ChunkNode& node = tree.nodes[child];
-        // The chunk counts as used by the frame that requested it, in case this frame no longer uses it.
-        node.lastUsedFrame = run.frame - 1;
+        node.lastUsedFrame = lastUsedFrame;
         node.loadedAtS = run.nowS;
         node.loadOrder = blocksLoaded_;
         recallFailure(node.id, node.childrenState, run.sinceResetS);
@@ -83,6 +82,7 @@ void ChunkPaging::use(PagingQueue& queue, NodeIndex index, PagingRun& run) {
     const bool wasOutOfUse = std::exchange(node.lastUsedFrame, run.frame) + 1 < run.frame;
     if (node.parent == noNode || quadrantOf(node.id) != 0) return;
     watched_.push_back(index);
+    noteUse(parentOf(node.id));
     if (!wasOutOfUse) return;
     // The page-in and the pending page-out cancel each other.
     const ChunkId parentId = parentOf(node.id);
@@ -105,22 +105,47 @@ void ChunkPaging::markUsed(PagingQueue& queue, std::span<const Selection* const>
     }
     for (const NodeIndex index : before) {
         const ChunkNode& node = tree.nodes[index];
-        if (node.lastUsedFrame == run.frame) continue;
-        const double priority = node.id.level / 32.0 - static_cast<double>(node.lastUsedFrame);
-        queue.submit({.parent = parentOf(node.id),
-                      .type = PagingType::PageOut,
-                      .priority = priority,
-                      .renewedFrame = run.frame,
-                      .askedAtS = run.nowS});
+        if (node.lastUsedFrame != run.frame) queuePageOut(queue, node, run);
+    }
+}
+
+// first: the first node of the block.
+void ChunkPaging::queuePageOut(PagingQueue& queue, const ChunkNode& first, const PagingRun& run) const {
+    queue.submit({.parent = parentOf(first.id),
+                  .type = PagingType::PageOut,
+                  .priority = first.id.level / 32.0 - static_cast<double>(first.lastUsedFrame),
+                  .renewedFrame = run.frame,
+                  .askedAtS = run.nowS});
+}
+
+void ChunkPaging::markPredicted(PagingQueue& queue, std::span<const NodeIndex> predicted,
+                                const PagingRun& run) {
+    for (const NodeIndex index : predicted) {
+        ChunkNode& node = tree.nodes[index];
+        if (node.lastUsedFrame >= oldestPredictedUse(run)) continue;
+        node.lastUsedFrame = predictedUse(run);
+        if (node.parent == noNode || quadrantOf(node.id) != 0) continue;
+        // A block that has just arrived is watched and has no page-out yet.
+        if (queue.find(parentOf(node.id))) queuePageOut(queue, node, run);
     }
 }
 
 bool ChunkPaging::makeRoom(PagingQueue& queue, const MergedRequest&, const std::vector<MergedRequest>&,
                            PagingRun& run) {
+    return run.frame > framesKept && evictUsedBefore(queue, run.frame - framesKept, run);
+}
+
+bool ChunkPaging::makeRoomForPrefetch(PagingQueue& queue, PagingRun& run) {
+    return evictUsedBefore(queue, oldestPredictedUse(run), run);
+}
+
+// Evicts the least recently used block if its last use was before a frame. Page-outs of blocks that are needed by
+// their children are put off.
+bool ChunkPaging::evictUsedBefore(PagingQueue& queue, std::uint64_t frame, PagingRun& run) {
     while (const PagingRequest* oldest = queue.best(PagingType::PageOut)) {
         const NodeIndex parent = findNode(tree, oldest->parent);
         const NodeIndex first = tree.nodes[parent].firstChild;
-        if (tree.nodes[first].lastUsedFrame + framesKept >= run.frame) return false;
+        if (tree.nodes[first].lastUsedFrame >= frame) return false;
         if (isBottom(tree, first)) {
             evict(queue, parent, run);
             return true;

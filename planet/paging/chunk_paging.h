@@ -33,6 +33,9 @@ public:
     // Queues a page-out for each block that no view uses, least recently used first, then deepest first, so
     // that children precede their parents. A block that is used again leaves the queue.
     void markUsed(PagingQueue& queue, std::span<const Selection* const> views, PagingRun& run);
+    // Lets the blocks that views are predicted to use be evicted last among those that no view uses. Call it
+    // after markUsed().
+    void markPredicted(PagingQueue& queue, std::span<const NodeIndex> predicted, const PagingRun& run);
     // Returns whether wanted blocks wait although every resident block is in use.
     bool lacksRoom() const { return counters().budgetWaits > 0 && tree.residentChunks <= usedChunks_; }
     // Chooses blocks for the next step to drop, because others have more than yieldFactor times their
@@ -58,12 +61,15 @@ private:
     void describe(NodeIndex parent, PagingRequest& request) const override;
     bool makeRoom(PagingQueue& queue, const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
                   PagingRun& run) override;
+    bool makeRoomForPrefetch(PagingQueue& queue, PagingRun& run) override;
     Result<void> check(NodeIndex parent, const LoadedBlock& block) const override;
-    void addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
+    void addResident(NodeIndex parent, LoadedBlock&& block, std::uint64_t lastUsedFrame, PagingRun& run,
                      const UploadChunk& upload) override;
     void resetBlocks(PagingRun& run) override;
 
     void use(PagingQueue& queue, NodeIndex index, PagingRun& run);
+    void queuePageOut(PagingQueue& queue, const ChunkNode& first, const PagingRun& run) const;
+    bool evictUsedBefore(PagingQueue& queue, std::uint64_t frame, PagingRun& run);
     void evict(PagingQueue& queue, NodeIndex parent, PagingRun& run);
     bool isOver(std::size_t blocks) const;
     void evictLeastUsed(PagingQueue& queue, std::size_t blocks, std::uint64_t usedBefore, PagingRun& run);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "planet/spans/span_recorder.h"
@@ -80,6 +81,13 @@ void Pager::loadOne() {
     startVirtualReads();
 }
 
+void Pager::setPrefetchShare(double share) {
+    assert(share > 0 && share <= 1);
+    const Wake wake{workArrived_};
+    const std::lock_guard lock(mutex_);
+    prefetchShare_ = share;
+}
+
 void Pager::setBadDisk(const BadDiskSettings& settings) {
     const Wake wake{badDiskChanged_};
     const std::lock_guard lock(mutex_);
@@ -103,17 +111,56 @@ void Pager::forgetAttempts() {
 void Pager::runLoader(std::size_t index, const std::stop_token& stop) {
     nameSpanThread("loader", static_cast<int>(index) + 1);
     Lock lock(mutex_);
+    const auto isReady = [&] { return index >= loadersWanted_ || (time_ == PagingTime::Clock && mayTake()); };
     while (true) {
-        workArrived_.wait(
-            lock, stop, [&] { return index >= loadersWanted_ || (time_ == PagingTime::Clock && mayTake()); });
+        bool isWoken = true;
+        if (const std::optional<double> atS = nextPrefetchAtS(); atS && time_ == PagingTime::Clock) {
+            const auto wait =
+                std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(*atS - timeS()));
+            isWoken = workArrived_.wait_for(lock, stop, wait, isReady);
+        } else {
+            workArrived_.wait(lock, stop, isReady);
+        }
         if (stop.stop_requested() || index >= loadersWanted_) break;
-        serve(index, stop, lock);
+        if (isWoken) serve(index, stop, lock);
     }
     loaders_[index].running = false;
 }
 
+double Pager::timeS() const {
+    if (time_ != PagingTime::Clock) return nowS_;
+    return std::chrono::duration<double>(Clock::now() - startedAt_).count();
+}
+
+// Returns the loaders that prefetches may occupy on average.
+double Pager::prefetchLoaders() const {
+    return prefetchShare_ * static_cast<double>(loadersWanted_);
+}
+
+bool Pager::hasLoaderForPrefetch() const {
+    return prefetching_ < static_cast<std::size_t>(std::max(prefetchLoaders(), 1.0));
+}
+
+// Returns the time at which the best request, a prefetch, may begin; nothing if it is no prefetch or waits for
+// something else.
+std::optional<double> Pager::nextPrefetchAtS() const {
+    const PagingRequest* best = queue_.best(PagingType::PageIn);
+    if (!best || !best->isPrefetch() || !hasLoaderForPrefetch() || (paused_ && letThrough_ == 0))
+        return std::nullopt;
+    return std::max(nextPrefetchS_, timeS());
+}
+
+// sinceS: when its read began.
+void Pager::endPrefetch(const PagingRequest& request, double sinceS) {
+    if (!request.isPrefetch()) return;
+    --prefetching_;
+    nextPrefetchS_ = std::max(nextPrefetchS_, sinceS) + (timeS() - sinceS) / prefetchLoaders();
+}
+
 bool Pager::mayTake() const {
-    return queue_.count(PagingType::PageIn) > 0 && (!paused_ || letThrough_ > 0);
+    const PagingRequest* best = queue_.best(PagingType::PageIn);
+    if (!best || (paused_ && letThrough_ == 0)) return false;
+    return !best->isPrefetch() || (hasLoaderForPrefetch() && timeS() >= nextPrefetchS_);
 }
 
 PagingRequest Pager::takeNext() {
@@ -124,6 +171,7 @@ PagingRequest Pager::takeNext() {
                                [&](const BlockId& block) { return shuffledPlace(badDisk_, block); })
             : *queue_.popBest(PagingType::PageIn);
     taken_.push_back(request.block());
+    prefetching_ += request.isPrefetch();
     return request;
 }
 
@@ -150,6 +198,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     if (epoch != epoch_) return;  // abandoned
     loaders_[index].reading.reset();
     const std::chrono::duration<double> taken = Clock::now() - reading.since;
+    endPrefetch(request, std::chrono::duration<double>(reading.since - startedAt_).count());
     const std::uint32_t bytes = fails ? 0 : request.location.size;
     finished_.push_back({std::move(request), std::move(block), taken.count(), bytes});
     loadFinished_.notify_all();
@@ -207,6 +256,9 @@ std::vector<PagingRequest> Pager::giveUpReads() {
     virtualReadings_.clear();
     taken_.clear();
     nowS_ = 0;
+    prefetching_ = 0;
+    nextPrefetchS_ = 0;
+    startedAt_ = Clock::now();
     letThrough_ = 0;
     ++epoch_;
     return givenUp;
@@ -237,6 +289,7 @@ std::size_t Pager::nextVirtualEnd() const {
 void Pager::endVirtualRead(std::size_t index) {
     const auto at = virtualReadings_.begin() + static_cast<std::ptrdiff_t>(index);
     at->endS = nowS_;
+    endPrefetch(at->request, at->sinceS);
     virtuallyFinished_.push_back(std::move(*at));
     virtualReadings_.erase(at);
 }
@@ -246,11 +299,19 @@ void Pager::advance(double seconds) {
     const std::lock_guard lock(mutex_);
     assert(time_ != PagingTime::Clock);
     const double untilS = nowS_ + seconds;
-    while (time_ == PagingTime::Simulated && !virtualReadings_.empty()) {
-        const std::size_t next = nextVirtualEnd();
-        if (virtualReadings_[next].endS > untilS) break;
-        nowS_ = std::max(nowS_, virtualReadings_[next].endS);
-        endVirtualRead(next);
+    while (time_ == PagingTime::Simulated) {
+        // A prefetch that waits for its share begins between the ends of reads.
+        constexpr double never = std::numeric_limits<double>::infinity();
+        const bool hasLoader = virtualReadings_.size() < loadersWanted_;
+        const double prefetchS = hasLoader ? nextPrefetchAtS().value_or(never) : never;
+        const double endS = virtualReadings_.empty() ? never : virtualReadings_[nextVirtualEnd()].endS;
+        if (std::min(prefetchS, endS) > untilS) break;
+        if (prefetchS < endS) {
+            nowS_ = prefetchS;
+        } else {
+            nowS_ = std::max(nowS_, endS);
+            endVirtualRead(nextVirtualEnd());
+        }
         startVirtualReads();
     }
     nowS_ = untilS;
@@ -268,6 +329,7 @@ bool Pager::take(const BlockId& block) {
     const PagingRequest* queued = queue_.find(block);
     if (!queued || queued->type != PagingType::PageIn) return false;
     virtualReadings_.push_back({*queue_.pop(block), nowS_, nowS_});
+    prefetching_ += virtualReadings_.back().request.isPrefetch();
     taken_.push_back(block);
     return true;
 }
@@ -344,12 +406,13 @@ std::vector<LoadInProgress> Pager::loadingNow() const {
         if (!loader.reading) continue;
         const std::chrono::duration<double> taken = now - loader.reading->since;
         const PagingRequest& request = loader.reading->request;
-        all.push_back({request.parent, request.kind, request.priority, request.location.size, taken.count()});
+        all.push_back({request.parent, request.kind, request.isPrefetch(), request.priority,
+                       request.location.size, taken.count()});
     }
     for (const VirtualReading& reading : virtualReadings_) {
         const PagingRequest& request = reading.request;
-        all.push_back(
-            {request.parent, request.kind, request.priority, request.location.size, nowS_ - reading.sinceS});
+        all.push_back({request.parent, request.kind, request.isPrefetch(), request.priority,
+                       request.location.size, nowS_ - reading.sinceS});
     }
     std::sort(all.begin(), all.end(), [](const LoadInProgress& a, const LoadInProgress& b) {
         return a.seconds != b.seconds ? a.seconds > b.seconds : a.parent < b.parent;

@@ -5,6 +5,11 @@
 // free and a request is queued. A read lasts as long as diskFault() says, or no time without fault injection.
 // It ends when advance() has reached its end, and takeFinished() then reads the block. So the same calls give
 // the same loads in the same order on any machine.
+//
+// Prefetches are read only while nothing else is queued, and take at most a share of the loaders' time. A read that
+// lasts d seconds delays the next prefetch until d / (share x loaders) seconds after its own beginning, or after the
+// end of the delay before that. So a prefetch that is being read can delay what is wanted by the rest of its own read,
+// on its own loader, and by nothing else.
 #pragma once
 
 #include <array>
@@ -62,6 +67,7 @@ struct FinishedLoad {
 struct LoadInProgress {
     ChunkId parent;
     BlockKind kind = BlockKind::Heights;
+    bool isPrefetch = false;
     double priority = 0;
     std::uint32_t bytes = 0;
     double seconds = 0;  // since it was taken
@@ -120,6 +126,9 @@ public:
     // does nothing if no request is queued.
     void setPaused(bool paused);
     void loadOne();
+
+    // Sets the share of the loaders' time for prefetches, (0, 1].
+    void setPrefetchShare(double share);
 
     // Sets the injected faults, also for reads that are waiting. The attempts of a block are counted while
     // faults are injected, starting from 0 after each change.
@@ -192,6 +201,11 @@ private:
     bool waitForInjectedDelay(const Reading& reading, const std::stop_token& stop, Lock& lock);
     bool mayTake() const;
     PagingRequest takeNext();
+    double timeS() const;
+    double prefetchLoaders() const;
+    bool hasLoaderForPrefetch() const;
+    void endPrefetch(const PagingRequest& request, double sinceS);
+    std::optional<double> nextPrefetchAtS() const;
     void startVirtualReads();
     void endVirtualRead(std::size_t index);
     std::size_t nextVirtualEnd() const;
@@ -219,6 +233,10 @@ private:
     double nowS_ = 0;          // of Simulated and Recorded
     std::vector<VirtualReading> virtualReadings_;
     std::deque<VirtualReading> virtuallyFinished_;  // endS: the time when it ended
+    double prefetchShare_ = 1;
+    std::size_t prefetching_ = 0;  // reads in progress
+    double nextPrefetchS_ = 0;     // no prefetch begins before this time
+    Clock::time_point startedAt_ = Clock::now();
     std::vector<BlockId> taken_;
     std::array<std::jthread, maxLoaderThreads> threads_;  // last, so joined before the other members go
 };

@@ -25,6 +25,7 @@ void PagingLog::ended(const PagingRequest& request, PagingOutcome outcome, doubl
     }
     event.timesAsked = request.timesAsked;
     event.priority = request.priority;
+    event.isPrefetch = request.isPrefetch();
     event.type = request.type;
     history.push_back(event);
     ++events;

@@ -11,7 +11,8 @@ SubmitOutcome PagingQueue::submit(PagingRequest request) {
     assert(!std::isnan(request.priority));
     const auto found = pending_.find(request.block());
     if (found == pending_.end()) {
-        order(request.type).insert({request.priority, request.block()});
+        order(request.type).insert(placeOf(request));
+        prefetches_ += request.isPrefetch();
         ++counters_.added[static_cast<std::size_t>(request.type)];
         const BlockId block = request.block();
         pending_.emplace(block, std::move(request));
@@ -31,19 +32,26 @@ SubmitOutcome PagingQueue::submit(PagingRequest request) {
 }
 
 void PagingQueue::merge(PagingRequest& pending, const PagingRequest& again) {
+    const Place before = placeOf(pending);
     double priority = again.priority;
+    PagingUrgency urgency = again.urgency;
     if (again.renewedFrame > pending.renewedFrame) {
         pending.renewedFrame = again.renewedFrame;
         pending.viewPriority = again.viewPriority;
     } else {
         priority = std::max(priority, pending.priority);
+        urgency = std::min(urgency, pending.urgency);
         for (std::size_t view = 0; view < maxViews; ++view) {
             pending.viewPriority[view] = std::max(pending.viewPriority[view], again.viewPriority[view]);
         }
     }
-    if (priority == pending.priority) return;
-    auto node = order(pending.type).extract({pending.priority, pending.block()});
-    pending.priority = node.value().priority = priority;
+    if (priority == pending.priority && urgency == pending.urgency) return;
+    prefetches_ -= pending.isPrefetch();
+    auto node = order(pending.type).extract(before);
+    pending.priority = priority;
+    pending.urgency = urgency;
+    prefetches_ += pending.isPrefetch();
+    node.value() = placeOf(pending);
     order(pending.type).insert(std::move(node));
 }
 
@@ -82,6 +90,7 @@ std::optional<PagingRequest> PagingQueue::popFirst(
     PagingType type, const std::function<std::uint64_t(const BlockId&)>& placeOf) {
     std::optional<std::pair<std::uint64_t, BlockId>> first;
     for (const Place& place : order(type)) {
+        if (place.urgency != order(type).begin()->urgency) break;
         const std::pair here{placeOf(place.block), place.block};
         if (!first || here < *first) first = here;
     }
@@ -121,7 +130,8 @@ PagingRequest PagingQueue::take(BlockId block) {
     const auto found = pending_.find(block);
     assert(found != pending_.end());
     PagingRequest request = std::move(found->second);
-    order(request.type).erase({request.priority, request.block()});
+    order(request.type).erase(placeOf(request));
+    prefetches_ -= request.isPrefetch();
     pending_.erase(found);
     return request;
 }

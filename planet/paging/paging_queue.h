@@ -2,7 +2,7 @@
 //
 // A request pages a block in or out. At most one request is pending per block. An equal request is merged
 // with the pending one. In the same frame the higher priority is kept; in a later frame the new one replaces
-// it, because the eye has moved. An opposite request cancels both, because the block then stays as it is. Not
+// it, because the eye has moved. The urgency comes before the priority. An opposite request cancels both, because the block then stays as it is. Not
 // thread-safe.
 #pragma once
 
@@ -31,12 +31,20 @@ inline constexpr float yieldFactor = 1.5f;
 enum class PagingType : std::uint8_t { PageIn, PageOut };
 inline constexpr int pagingTypeCount = 2;
 
+// In the order in which requests are served.
+enum class PagingUrgency : std::uint8_t {
+    Lasting,   // a view wants the block
+    Passing,   // a view wants the block, but is predicted not to want it any more when it arrives
+    Prefetch,  // no view wants the block yet
+};
+
 inline constexpr std::size_t maxViews = 4;  // at a time, per planet
 
 struct PagingRequest {
     ChunkId parent;  // of the four blocks to load or drop
     BlockKind kind = BlockKind::Heights;
     PagingType type = PagingType::PageIn;
+    PagingUrgency urgency = PagingUrgency::Lasting;
     double priority = 0;             // larger first; ties in order of block; not NaN
     std::uint64_t renewedFrame = 0;  // last frame in which it was requested
     double askedAtS = 0;             // first request, seconds since the planet was opened
@@ -50,7 +58,14 @@ struct PagingRequest {
     std::uint64_t ticket = 0;
 
     BlockId block() const { return {parent, kind}; }
+    bool isPrefetch() const { return urgency == PagingUrgency::Prefetch; }
 };
+
+// Returns whether a request is served before another one, apart from ties.
+inline bool isMoreUrgent(PagingUrgency urgency, double priority, PagingUrgency otherUrgency,
+                         double otherPriority) {
+    return urgency != otherUrgency ? urgency < otherUrgency : priority > otherPriority;
+}
 
 // Totals over both types, or by type where noted.
 struct PagingQueueCounters {
@@ -84,7 +99,7 @@ public:
     // Remove a request to serve it.
     std::optional<PagingRequest> popBest(PagingType type);
     std::optional<PagingRequest> pop(BlockId block);
-    // Removes the request with the smallest place, to serve it. Visits all requests.
+    // Removes the request with the smallest place among the most urgent ones, to serve it. Visits all of those.
     std::optional<PagingRequest> popFirst(PagingType type,
                                           const std::function<std::uint64_t(const BlockId&)>& placeOf);
     // Removes a request unserved.
@@ -93,18 +108,24 @@ public:
     std::vector<PagingRequest> cancelNotRenewed(PagingType type, std::uint64_t sinceFrame);
 
     std::size_t count(PagingType type) const { return order(type).size(); }
+    std::size_t prefetches() const { return prefetches_; }  // of count(PageIn)
     // Returns a copy for display, best first.
     std::vector<PagingRequest> sorted(PagingType type) const;
     const PagingQueueCounters& counters() const { return counters_; }
 
 private:
     struct Place {
+        PagingUrgency urgency;
         double priority;
         BlockId block;
         bool operator<(const Place& other) const {
-            return priority != other.priority ? priority > other.priority : block < other.block;
+            if (urgency == other.urgency && priority == other.priority) return block < other.block;
+            return isMoreUrgent(urgency, priority, other.urgency, other.priority);
         }
     };
+    static Place placeOf(const PagingRequest& request) {
+        return {request.urgency, request.priority, request.block()};
+    }
     using Order = std::set<Place>;
 
     const Order& order(PagingType type) const { return orders_[static_cast<std::size_t>(type)]; }
@@ -114,6 +135,7 @@ private:
 
     std::unordered_map<BlockId, PagingRequest> pending_;
     std::array<Order, pagingTypeCount> orders_;
+    std::size_t prefetches_ = 0;
     PagingQueueCounters counters_;
 };
 

@@ -20,6 +20,25 @@
 
 namespace planet {
 
+// What is loaded before any view wants it (planet/select/prediction.h). Announced: the views of
+// Planet::announce(), and the motion of views without an announcement.
+enum class PrefetchMode : std::uint8_t { Off, Motion, Announced };
+
+struct PrefetchSettings {
+    PrefetchMode mode = PrefetchMode::Off;
+    // How far ahead views are predicted, s, [0.1, 60]. Larger: more is there in time if the camera goes on as
+    // predicted, and more is read in vain if it does not.
+    double horizonS = 10;
+    // Share of the loaders' time for prefetches, [0.01, 1]. They are read only while nothing that a view wants
+    // is queued. Smaller: a loader is more often free for what a view wants next.
+    double share = 1;
+    // Among the blocks that views want, loads those first that are predicted to be wanted still when they can
+    // arrive. It matters while a disk falls behind: what the camera passes before it arrives is read in vain.
+    bool lastingFirst = true;
+
+    bool operator==(const PrefetchSettings&) const = default;
+};
+
 struct PagingSettings {
     std::size_t budgetBytes = 256u << 20;  // for resident chunks, CPU and GPU together; smaller is coarser
     int loaderThreads = 1;                 // [1, maxLoaderThreads]
@@ -42,6 +61,7 @@ struct PagingSettings {
     // exhausted. If it is too small for any tile, there are none, and takeProblems() reports it.
     double normalShare = 0.2;
     std::uint32_t maxNormalTiles = 2048;  // the capacity of the renderer's pool
+    PrefetchSettings prefetch{};
     // Simulated: reads last as long as badDisk says, in the time of step()'s elapsedS. A block arrives in the
     // first step at or after the end of its read; uploadLimitMs has no effect. The same steps, settings and
     // calls then give the same selections, requests and arrivals, bit for bit, on any machine.
@@ -62,6 +82,7 @@ struct PagingEvent {
     std::uint32_t bytes = 0;       // read
     std::uint32_t timesAsked = 1;  // > 1: merged
     double priority = 0;
+    bool isPrefetch = false;
     PagingType type = PagingType::PageIn;  // the outcome implies it, except Cancelled
 };
 
@@ -83,6 +104,23 @@ struct PagingMoves {
     bool operator==(const PagingMoves&) const = default;
 };
 
+// The prefetched blocks. blocks - hits - wasted are resident now, and no view has wanted them yet.
+struct PrefetchCounters {
+    // Since the planet was opened.
+    std::uint64_t blocks = 0;       // that became resident
+    std::uint64_t bytes = 0;        // read, failed and discarded reads included
+    std::uint64_t hits = 0;         // that a view has wanted since
+    std::uint64_t hitBytes = 0;     // of those
+    std::uint64_t wasted = 0;       // evicted before any view wanted them
+    std::uint64_t wastedBytes = 0;  // of those, and of discarded reads
+
+    std::uint32_t pending = 0;  // queued or being read now, and not wanted yet
+
+    std::uint64_t unused() const { return blocks - hits - wasted; }
+
+    bool operator==(const PrefetchCounters&) const = default;
+};
+
 // The counters of one kind of blocks. loaded - evicted blocks are resident now, not counting the checker
 // patterns that replace failed blocks of colours.
 struct BlockCounters {
@@ -98,6 +136,8 @@ struct BlockCounters {
     std::uint32_t awaitingRetry = 0;      // other blocks whose last read failed
     std::size_t resident = 0;             // chunks or tiles, including roots
     std::uint32_t capacity = 0;           // slots for them; 0 if the kind is off or has no room
+
+    PrefetchCounters prefetch{};  // part of loaded, evicted and bytesRead
 };
 
 // Counters over all kinds of blocks, since the planet was opened unless noted, and those of each kind.
@@ -108,7 +148,7 @@ struct PagingCounters {
     std::uint64_t pageOutsQueued = 0;     // queued page-outs
     std::uint64_t pageOutsCancelled = 0;  // number of page-outs among the cancelled
     double loadSeconds = 0;               // reading and decoding, over all threads
-    std::uint32_t queued = 0;             // now
+    std::uint32_t queued = 0;             // now, without prefetches
     std::uint32_t loading = 0;            // now being read, or read and waiting for upload
     std::size_t residentBytesCpu = 0;     // now, of chunks
     std::size_t residentBytesGpu = 0;     // now, of the slots that hold a resident chunk
@@ -121,6 +161,19 @@ struct PagingCounters {
     std::uint64_t bytesRead() const { return sum(&BlockCounters::bytesRead); }
     std::uint32_t failedPermanently() const { return sum(&BlockCounters::failedPermanently); }
     std::uint32_t awaitingRetry() const { return sum(&BlockCounters::awaitingRetry); }
+    PrefetchCounters prefetch() const {
+        PrefetchCounters all;
+        for (const BlockCounters& kind : blocks) {
+            all.blocks += kind.prefetch.blocks;
+            all.bytes += kind.prefetch.bytes;
+            all.hits += kind.prefetch.hits;
+            all.hitBytes += kind.prefetch.hitBytes;
+            all.wasted += kind.prefetch.wasted;
+            all.wastedBytes += kind.prefetch.wastedBytes;
+            all.pending += kind.prefetch.pending;
+        }
+        return all;
+    }
 
 private:
     template <class Count>

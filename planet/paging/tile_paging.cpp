@@ -14,6 +14,7 @@ namespace planet {
 void TilePaging::begin(std::uint32_t capacity, double sinceResetS) {
     assert(capacity == 0 || (capacity >= faceCount && (capacity - faceCount) % quadrantCount == 0));
     assert(reserved() == 0);
+    wastePrefetches();
     for (const TileNode& node : tree.nodes)
         if (node.childrenState == ChildrenState::Resident && !node.hasFailed) ++counters().evicted;
     tree = capacity > 0 ? makeTileTree(leafLevel, !checkers, roots) : TileTree{};
@@ -30,7 +31,18 @@ void TilePaging::begin(std::uint32_t capacity, double sinceResetS) {
 }
 
 void TilePaging::use(const std::vector<NodeIndex>& touched, std::uint64_t frame) {
-    for (const NodeIndex index : touched) tree.nodes[index].lastUsedFrame = frame;
+    for (const NodeIndex index : touched) {
+        TileNode& node = tree.nodes[index];
+        node.lastUsedFrame = frame;
+        if (node.parent != noNode) noteUse(tree.nodes[node.parent].id);
+    }
+}
+
+void TilePaging::markPredicted(const std::vector<NodeIndex>& predicted, const PagingRun& run) {
+    for (const NodeIndex index : predicted) {
+        std::uint64_t& lastUsedFrame = tree.nodes[index].lastUsedFrame;
+        lastUsedFrame = std::max(lastUsedFrame, predictedUse(run));
+    }
 }
 
 void TilePaging::describe(NodeIndex parent, PagingRequest& request) const {
@@ -49,8 +61,22 @@ bool TilePaging::makeRoom(PagingQueue&, const MergedRequest& wanted, const std::
     return evictUnused(run) || evictLessWanted(wanted, splits, run);
 }
 
+bool TilePaging::makeRoomForPrefetch(PagingQueue&, PagingRun& run) {
+    const NodeIndex oldest = findUnused(oldestPredictedUse(run), run).oldest;
+    if (oldest != noNode) evict(oldest, run);
+    return oldest != noNode;
+}
+
 bool TilePaging::evictUnused(PagingRun& run) {
-    NodeIndex oldest = noNode;
+    const Unused unused = findUnused(run.frame > framesKept ? run.frame - framesKept : 0, run);
+    roomIsComing_ = roomIsComing_ || unused.hasRecent;
+    if (unused.oldest != noNode) evict(unused.oldest, run);
+    return unused.oldest != noNode;
+}
+
+TilePaging::Unused TilePaging::findUnused(std::uint64_t usedBefore, const PagingRun& run) const {
+    Unused found;
+    NodeIndex& oldest = found.oldest;
     const auto age = [&](NodeIndex parent) {
         const TileNode& first = tree.nodes[tree.nodes[parent].firstChild];
         return std::pair(first.lastUsedFrame, -static_cast<int>(first.id.level));
@@ -59,15 +85,13 @@ bool TilePaging::evictUnused(PagingRun& run) {
         if (!mayBeEvicted(i)) continue;
         const std::uint64_t lastUsed = age(i).first;
         if (lastUsed == run.frame) continue;
-        if (lastUsed + framesKept >= run.frame) {
-            roomIsComing_ = true;
+        if (lastUsed >= usedBefore) {
+            found.hasRecent = true;
             continue;
         }
         if (oldest == noNode || age(i) < age(oldest)) oldest = i;
     }
-    if (oldest == noNode) return false;
-    evict(oldest, run);
-    return true;
+    return found;
 }
 
 bool TilePaging::evictLessWanted(const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
@@ -104,16 +128,17 @@ void TilePaging::remove(NodeIndex parent) {
     removeTiles(tree, parent);
 }
 
-void TilePaging::addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run, const UploadChunk&) {
-    addTilesUnder(parent, std::get<TileBlock>(std::move(block)), run);
+void TilePaging::addResident(NodeIndex parent, LoadedBlock&& block, std::uint64_t lastUsedFrame,
+                             PagingRun& run, const UploadChunk&) {
+    addTilesUnder(parent, std::get<TileBlock>(std::move(block)), lastUsedFrame, run);
 }
 
-void TilePaging::addTilesUnder(NodeIndex parent, TileBlock&& tiles, const PagingRun& run) {
+void TilePaging::addTilesUnder(NodeIndex parent, TileBlock&& tiles, std::uint64_t lastUsedFrame,
+                               const PagingRun& run) {
     const std::uint32_t slot = takeSlots();
     const NodeIndex first = addTiles(tree, parent, tiles, slot);
     for (NodeIndex child = first; child < first + quadrantCount; ++child) {
-        // The tile counts as used by the frame that requested it, in case this frame no longer uses it.
-        tree.nodes[child].lastUsedFrame = run.frame - 1;
+        tree.nodes[child].lastUsedFrame = lastUsedFrame;
         recallFailure(tree.nodes[child].id, tree.nodes[child].childrenState, run.sinceResetS);
     }
     TileChange change{.firstSlot = slot};
@@ -126,7 +151,7 @@ void TilePaging::addStandIn(NodeIndex parent, PagingRun& run) {
     for (int q = 0; q < quadrantCount; ++q)
         block[static_cast<std::size_t>(q)] = {
             childOf(tree.nodes[parent].id, q), {}, checkerTexels(*checkers)};
-    addTilesUnder(parent, std::move(block), run);
+    addTilesUnder(parent, std::move(block), run.frame - 1, run);
     tree.nodes[parent].hasFailed = true;
 }
 

@@ -34,6 +34,8 @@ public:
 
     // Marks the tiles that a view used in a frame.
     void use(const std::vector<NodeIndex>& touched, std::uint64_t frame);
+    // Lets the tiles that views are predicted to use be evicted last among those that no view uses.
+    void markPredicted(const std::vector<NodeIndex>& predicted, const PagingRun& run);
 
     void dropAll(PagingQueue& queue, PagingRun& run) override;
     bool roomIsComing() const override { return roomIsComing_; }
@@ -46,8 +48,9 @@ private:
     void describe(NodeIndex parent, PagingRequest& request) const override;
     bool makeRoom(PagingQueue& queue, const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
                   PagingRun& run) override;
+    bool makeRoomForPrefetch(PagingQueue& queue, PagingRun& run) override;
     Result<void> check(NodeIndex, const LoadedBlock&) const override { return {}; }
-    void addResident(NodeIndex parent, LoadedBlock&& block, PagingRun& run,
+    void addResident(NodeIndex parent, LoadedBlock&& block, std::uint64_t lastUsedFrame, PagingRun& run,
                      const UploadChunk& upload) override;
     void beginRequests() override { roomIsComing_ = false; }
     bool hasStandIn() const override { return checkers.has_value(); }
@@ -55,13 +58,19 @@ private:
     void dropStandIn(NodeIndex parent) override;
     void resetBlocks(PagingRun& run) override { begin(capacity(), run.sinceResetS); }
 
+    struct Unused {
+        NodeIndex oldest = noNode;  // parent of the least recently used block
+        bool hasRecent = false;     // a block may be evicted once it is out of use for longer
+    };
+    Unused findUnused(std::uint64_t usedBefore, const PagingRun& run) const;
     bool evictUnused(PagingRun& run);
     bool evictLessWanted(const MergedRequest& wanted, const std::vector<MergedRequest>& splits,
                          PagingRun& run);
     bool mayBeEvicted(NodeIndex parent) const;
     void evict(NodeIndex parent, PagingRun& run);
     void remove(NodeIndex parent);
-    void addTilesUnder(NodeIndex parent, TileBlock&& tiles, const PagingRun& run);
+    void addTilesUnder(NodeIndex parent, TileBlock&& tiles, std::uint64_t lastUsedFrame,
+                       const PagingRun& run);
 
     // A request of the last step waits for a block to be out of use for long enough.
     bool roomIsComing_ = false;

@@ -56,6 +56,20 @@ CameraPose poseFromView(const View& view, double radiusM) {
     return pose;
 }
 
+bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM, double seconds) {
+    constexpr double spanS = 0.1;
+    constexpr double mostArcRad = glm::radians(5.0);
+    const double arcRad = std::atan2(glm::length(glm::cross(fromM, toM)), glm::dot(fromM, toM));
+    const auto heightM = [&](const glm::dvec3& eyeM) {
+        return std::max(glm::length(eyeM) - radiusM, radiusM / 1000);
+    };
+    const double low = std::min(heightM(fromM), heightM(toM));
+    const double high = std::max(heightM(fromM), heightM(toM));
+    const double spans = std::max(seconds / spanS, 1.0);
+    return arcRad > spans * mostArcRad || std::log(high / low) > spans * std::log(10) ||
+           arcRad * radiusM > spans * high;
+}
+
 double screenScalePx(const View& view) {
     return view.widthPx / (2 * std::tan(view.horizontalFovRad / 2));
 }

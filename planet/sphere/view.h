@@ -33,6 +33,12 @@ struct View {
 View viewFromPose(const CameraPose& pose, double radiusM, double horizontalFovRad, int widthPx, int heightPx);
 CameraPose poseFromView(const View& view, double radiusM);
 
+// Returns true if the eye jumps between two frames: it moves farther over the ground than its greater height
+// above the radius, or by more than 5 degrees of arc, or its height changes more than tenfold. Heights count
+// as at least a thousandth of the radius. In a frame of N tenths of a second, N > 1, the three limits are N
+// times as large. Eyes: metres from the planet's centre; seconds >= 0.
+bool isCameraJump(const glm::dvec3& fromM, const glm::dvec3& toM, double radiusM, double seconds);
+
 // Returns K' = W / (2 tan(Hfov / 2)): the pixels that 1 m covers at a distance of 1 m.
 double screenScalePx(const View& view);
 

@@ -19,10 +19,11 @@ namespace planet {
 namespace {
 
 bool same(const PagingRequest& a, const PagingRequest& b) {
-    return a.parent == b.parent && a.kind == b.kind && a.type == b.type && a.priority == b.priority &&
-           a.renewedFrame == b.renewedFrame && a.askedAtS == b.askedAtS && a.timesAsked == b.timesAsked &&
-           a.viewPriority == b.viewPriority && a.location.offset == b.location.offset &&
-           a.location.size == b.location.size && a.parentHeights == b.parentHeights && a.ticket == b.ticket;
+    return a.parent == b.parent && a.kind == b.kind && a.type == b.type && a.urgency == b.urgency &&
+           a.priority == b.priority && a.renewedFrame == b.renewedFrame && a.askedAtS == b.askedAtS &&
+           a.timesAsked == b.timesAsked && a.viewPriority == b.viewPriority &&
+           a.location.offset == b.location.offset && a.location.size == b.location.size &&
+           a.parentHeights == b.parentHeights && a.ticket == b.ticket;
 }
 
 bool same(const std::vector<PagingRequest>& a, const std::vector<PagingRequest>& b) {

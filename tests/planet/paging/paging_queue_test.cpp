@@ -49,6 +49,49 @@ TEST(PagingQueue, AskingAgainInTheSameFrameRaisesThePriorityAndNeverLowersIt) {
     EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunkNumber(1));
 }
 
+PagingRequest makeUrgent(std::uint32_t number, PagingUrgency urgency, double priority,
+                         std::uint64_t frame = 0) {
+    PagingRequest request = makeRequest(number, PagingType::PageIn, priority, frame);
+    request.urgency = urgency;
+    return request;
+}
+
+TEST(PagingQueue, PrefetchesComeAfterAllThatIsWanted) {
+    PagingQueue queue;
+    queue.submit(makeUrgent(1, PagingUrgency::Prefetch, 1000));
+    queue.submit(makeUrgent(2, PagingUrgency::Passing, 100));
+    queue.submit(makeUrgent(3, PagingUrgency::Lasting, 1));
+    EXPECT_EQ(queue.prefetches(), 1u);
+    EXPECT_EQ(queue.worst(PagingType::PageIn)->parent, chunkNumber(1));
+    for (const std::uint32_t number : {3u, 2u, 1u})
+        EXPECT_EQ(queue.popBest(PagingType::PageIn)->parent, chunkNumber(number));
+    EXPECT_EQ(queue.prefetches(), 0u);
+}
+
+TEST(PagingQueue, APrefetchThatIsWantedIsNoPrefetchAnyMore) {
+    PagingQueue queue;
+    queue.submit(makeUrgent(1, PagingUrgency::Prefetch, 9, 5));
+    queue.submit(makeUrgent(2, PagingUrgency::Prefetch, 8, 5));
+    queue.submit(makeUrgent(2, PagingUrgency::Lasting, 1, 5));  // in the same frame
+    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunkNumber(2));
+    EXPECT_EQ(queue.prefetches(), 1u);
+    queue.submit(makeUrgent(2, PagingUrgency::Prefetch, 1, 6));  // no longer wanted
+    EXPECT_EQ(queue.best(PagingType::PageIn)->parent, chunkNumber(1));
+    EXPECT_EQ(queue.prefetches(), 2u);
+}
+
+TEST(PagingQueue, ShuffledOrderLeavesPrefetchesLast) {
+    PagingQueue queue;
+    queue.submit(makeUrgent(1, PagingUrgency::Prefetch, 1));
+    queue.submit(makeUrgent(2, PagingUrgency::Lasting, 1));
+    queue.submit(makeUrgent(3, PagingUrgency::Lasting, 2));
+    const auto placeOf = [](const BlockId& block) -> std::uint64_t {
+        return block == chunkNumber(1) ? 0 : block == chunkNumber(2) ? 1 : 2;
+    };
+    for (const std::uint32_t number : {2u, 3u, 1u})
+        EXPECT_EQ(queue.popFirst(PagingType::PageIn, placeOf)->parent, chunkNumber(number));
+}
+
 TEST(PagingQueue, AskingInALaterFrameSetsThePriority) {
     PagingQueue queue;
     PagingRequest request = makeRequest(1, PagingType::PageIn, 5, 10);
@@ -144,6 +187,7 @@ struct SimpleQueue {
     PagingQueueCounters counters;
 
     static bool before(const PagingRequest& a, const PagingRequest& b) {
+        if (a.urgency != b.urgency) return a.urgency < b.urgency;
         return a.priority != b.priority ? a.priority > b.priority : a.parent < b.parent;
     }
     auto at(const ChunkId& parent) {
@@ -164,6 +208,7 @@ struct SimpleQueue {
         }
         const bool later = request.renewedFrame > same->renewedFrame;
         same->priority = later ? request.priority : std::max(same->priority, request.priority);
+        same->urgency = later ? request.urgency : std::min(same->urgency, request.urgency);
         same->renewedFrame = std::max(same->renewedFrame, request.renewedFrame);
         ++counters.merged;
         return SubmitOutcome::Merged;
@@ -207,7 +252,7 @@ struct SimpleQueue {
 };
 
 bool same(const PagingRequest& a, const PagingRequest& b) {
-    return a.parent == b.parent && a.type == b.type && a.priority == b.priority &&
+    return a.parent == b.parent && a.type == b.type && a.urgency == b.urgency && a.priority == b.priority &&
            a.renewedFrame == b.renewedFrame;
 }
 
@@ -226,7 +271,8 @@ bool operateOnBoth(PagingQueue& queue, SimpleQueue& simple, std::mt19937& random
     const auto number = static_cast<std::uint32_t>(random() % 40);
     const auto kind = random() % 100;
     if (kind < 60) {
-        const PagingRequest request = makeRequest(number, type, static_cast<double>(random() % 16), frame);
+        PagingRequest request = makeRequest(number, type, static_cast<double>(random() % 16), frame);
+        if (type == PagingType::PageIn) request.urgency = static_cast<PagingUrgency>(random() % 3);
         return queue.submit(request) == simple.submit(request);
     }
     if (kind < 80) {
@@ -253,6 +299,9 @@ TEST(PagingQueue, AMillionRandomOperationsAgreeWithASimpleModel) {
         for (const PagingType type : {PagingType::PageIn, PagingType::PageOut}) {
             ASSERT_TRUE(same(queue.sorted(type), simple.sorted(type))) << "after operation " << i;
         }
+        const std::vector<PagingRequest> loads = simple.sorted(PagingType::PageIn);
+        ASSERT_EQ(queue.prefetches(), static_cast<std::size_t>(std::ranges::count_if(
+                                          loads, [](const auto& load) { return load.isPrefetch(); })));
     }
     EXPECT_EQ(queue.counters().added, simple.counters.added);
     EXPECT_EQ(queue.counters().popped, simple.counters.popped);
