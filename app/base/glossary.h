@@ -46,11 +46,28 @@ inline constexpr Term budgetUse{
 inline constexpr Term budgetBinds{"budget_binds", "Binds",
                                   "Budget that needs the largest tolerance, or the limit of the tolerance."};
 
+inline constexpr Term lateChunkS{"late_chunk_s", "Late chunk-seconds",
+                                 "Drawn chunks that are coarser than \u03c4 because their children are not "
+                                 "resident, times the seconds for "
+                                 "which they are drawn."};
+inline constexpr Term prefetchedBlocks{"prefetched_blocks", "Prefetched",
+                                       "Blocks that became resident before any view wanted them."};
+inline constexpr Term prefetchHits{"prefetch_hits", "Hits",
+                                   "Prefetched blocks that a view has wanted since."};
+inline constexpr Term prefetchWaste{"prefetch_waste", "Waste",
+                                    "Prefetched blocks that were evicted before any view wanted them."};
+inline constexpr Term prefetchUnused{
+    "prefetch_unused", "Unused",
+    "Prefetched blocks that are resident and that no view has wanted yet: prefetched - hits - waste."};
+
 }  // namespace terms
 
-inline constexpr std::array glossary = {terms::drawnChunks, terms::groundTriangles, terms::skirtTriangles,
-                                        terms::triangles,   terms::epsPx,           terms::drawnBoundPx,
-                                        terms::measuredPx,  terms::screenPx,        terms::tauPx,
-                                        terms::budgetUse,   terms::budgetBinds};
+inline constexpr std::array glossary = {
+    terms::drawnChunks,      terms::groundTriangles, terms::skirtTriangles,
+    terms::triangles,        terms::epsPx,           terms::drawnBoundPx,
+    terms::measuredPx,       terms::screenPx,        terms::tauPx,
+    terms::budgetUse,        terms::budgetBinds,     terms::lateChunkS,
+    terms::prefetchedBlocks, terms::prefetchHits,    terms::prefetchWaste,
+    terms::prefetchUnused};
 
 }  // namespace worldy

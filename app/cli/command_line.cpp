@@ -31,6 +31,7 @@
 #include "app/cli/file_commands.h"
 #include "app/cli/fly_command.h"
 #include "app/cli/pops_command.h"
+#include "app/cli/prefetch_command.h"
 #include "app/cli/replay_command.h"
 #include "app/cli/schedule_command.h"
 #include "app/cli/settings_command.h"
@@ -169,6 +170,9 @@ void addFly(CLI::App& command, FlyOptions& options, ViewTexts& view) {
     addSettingOption(command, "--budget-triangles", defaultField("budget.triangles"), view);
     addSettingOption(command, "--budget-memory", defaultField("budget.memory_mb"), view);
     addSettingOption(command, "--budget-mb-per-second", defaultField("budget.read_mb_s"), view);
+    addSettingOption(command, "--prefetch", defaultField("paging.prefetch"), view);
+    addSettingOption(command, "--prefetch-horizon", defaultField("paging.prefetch_horizon_s"), view);
+    addSettingOption(command, "--prefetch-share", defaultField("paging.prefetch_share"), view);
 }
 
 void addBench(CLI::App& command, BenchOptions& options) {
@@ -260,6 +264,41 @@ void addSchedule(CLI::App& command, ScheduleOptions& options) {
 
 void addPops(CLI::App& command, PopsOptions& options) {
     command.add_option("FILE", options.file, "Chunk file")->required();
+}
+
+struct PrefetchTexts {
+    std::vector<std::string> modes;
+};
+
+void addPrefetch(CLI::App& command, PrefetchOptions& options, PrefetchTexts& texts, ViewTexts& view) {
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command.add_option("--predict", texts.modes, "Ways of prefetching: off, motion, announced (all)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(oneOf(prefetchModeNames));
+    command
+        .add_option("--disk-mb-s", options.disksMBs,
+                    "10^6 bytes per second of a loader, 0 is unlimited (2,8,32)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(number(0, 1e5));
+    command
+        .add_option("--disk-ms", options.latenciesMs,
+                    "Latency of a read, ms, varied by +-50 % (bad_disk.latency_ms of the settings)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(number(0, 1e4));
+    command.add_option("--speeds", options.speeds, "Speeds, as factors of the flight's own (0.5,1,2)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(number(0.01, 100));
+    command
+        .add_option("--horizons-s", options.horizonsS,
+                    "Horizons of the prediction, s (paging.prefetch_horizon_s of the settings)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(number(0.1, 60));
+    addSettingOption(command, "--prefetch-share", defaultField("paging.prefetch_share"), view);
 }
 
 // The settings of one side of a comparison, unparsed: A and B.
@@ -543,6 +582,20 @@ Result<void> finish(SweepOptions& options, const SweepTexts& texts) {
     return tauGoalFromText(texts.goal).map([&](const TauGoal& goal) { options.goal = goal; });
 }
 
+Result<void> finish(PrefetchOptions& options, const PrefetchTexts& texts) {
+    const Result<void> once = checkOnce("--predict", texts.modes)
+                                  .and_then([&] { return checkOnce("--disk-mb-s", options.disksMBs); })
+                                  .and_then([&] { return checkOnce("--disk-ms", options.latenciesMs); })
+                                  .and_then([&] { return checkOnce("--speeds", options.speeds); })
+                                  .and_then([&] { return checkOnce("--horizons-s", options.horizonsS); });
+    if (!once) return once;
+    if (!texts.modes.empty()) options.modes.clear();
+    for (const std::string& name : texts.modes)
+        options.modes.push_back(static_cast<planet::PrefetchMode>(
+            std::find(prefetchModeNames.begin(), prefetchModeNames.end(), name) - prefetchModeNames.begin()));
+    return {};
+}
+
 Result<void> finish(TraceCommandOptions& options, const TraceTexts& texts) {
     planet::TraceSelectorSettings& settings = options.whatIf.settings;
     const auto placeOf = [](const auto& names, const std::string& name) {
@@ -616,6 +669,8 @@ struct CommandLine {
     CostsOptions costs;
     ScheduleOptions schedule;
     PopsOptions pops;
+    PrefetchOptions prefetch;
+    PrefetchTexts prefetchTexts;
     AuditOptions audit;
     ReplayOptions replay;
     CompareOptions compare;
@@ -656,6 +711,7 @@ struct CommandLine {
         addCosts(at("costs"), costs);
         addSchedule(at("schedule"), schedule);
         addPops(at("pops"), pops);
+        addPrefetch(at("prefetch"), prefetch, prefetchTexts, shared["prefetch"].view);
         addAudit(at("audit"), audit, shared["audit"].view);
         addReplay(at("replay"), replay);
         addCompare(at("compare"), compare, compareTexts);
@@ -760,6 +816,8 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"costs", command("costs", line.costs, runCosts, ready)},
         {"schedule", command("schedule", line.schedule, runSchedule, ready)},
         {"pops", command("pops", line.pops, runPops, ready)},
+        {"prefetch", command("prefetch", line.prefetch, runPrefetch,
+                             [&](const Settings&) { return finish(line.prefetch, line.prefetchTexts); })},
         {"audit", command("audit", line.audit, runAudit, ready)},
         {"settings", command("settings", line.settings, runSettings, ready)},
         {"trace", command("trace", line.trace, runTrace,

@@ -79,6 +79,11 @@ constexpr std::array<CommandSpec, 19> commandTable = {{
      .output = reportHelp,
      .sampling = everySeconds(1.0 / 60),
      .worst = "Level changes"},
+    {.name = "prefetch",
+     .about = "Fly over simulated disks with each way of prefetching, and compare late data and bytes read",
+     .takes = pictureOptions | takes::output | takes::mustFlight,
+     .output = "Table to write, .csv or .json",
+     .sampling = everySeconds(1.0 / 30)},
     {.name = "audit",
      .about =
          "Compare the true error of the drawn surface with its bound; exits with 1 if it exceeds the bound",

@@ -18,6 +18,7 @@
 #include "app/base/message.h"
 #include "app/base/report.h"
 #include "app/base/stopwatch.h"
+#include "app/flight/announce_flight.h"
 #include "app/flight/budget_figures.h"
 #include "app/flight/flight_path.h"
 #include "app/flight/flight_path_file.h"
@@ -49,6 +50,7 @@ struct Flown {
     FlightPath path;
     std::vector<FlownFrame> frames;
     std::uint64_t thrash = 0;  // level changes back and forth within a second
+    double lateChunkS = 0;
 };
 
 // A quantity of the summary and its name in JSON.
@@ -107,6 +109,23 @@ Spread spreadOf(const std::vector<FlownFrame>& frames, const Quantity& quantity)
             planet::percentileOf(values, 1)};
 }
 
+// Announces the flight when the last announcement has run out.
+void announceAhead(Offscreen& offscreen, const FlightPath& path, double timeS, const ViewSettings& settings,
+                   std::optional<FlightAnnouncement>& announced) {
+    const planet::PrefetchSettings& prefetch = settings.paging.prefetch;
+    if (prefetch.mode != planet::PrefetchMode::Announced) return;
+    if (announced && announced->holds(timeS, prefetch.horizonS, 1)) return;
+    planet::View like;
+    like.horizontalFovRad = glm::radians(settings.camera.fovDeg);
+    like.widthPx = offscreen.target.widthPx();
+    like.heightPx = offscreen.target.heightPx();
+    planet::Planet& planet = *offscreen.scene.planet;
+    const AnnouncedFlight next =
+        announceFlight(path, timeS, 1, prefetch.horizonS, like, planet.tree().shape.radiusM);
+    announced = next.announcement;
+    planet.announce(next.views);
+}
+
 // elapsedS: time in the flight since the last frame.
 Result<FlownFrame> flyFrame(Offscreen& offscreen, const FlightPath& path, double timeS, double elapsedS,
                             const ViewSettings& settings) {
@@ -156,14 +175,15 @@ Json budgetJson(const FlyOptions& options, const Flown& flown) {
 }
 
 Json jsonOf(const FlyOptions& options, const Flown& flown) {
-    const auto& [path, frames, thrash] = flown;
+    const auto& [path, frames, thrash, lateChunkS] = flown;
     Json report = {{"flight", path.name},
                    {"file", options.file.string()},
                    {"frames", frames.size()},
                    {"width_px", options.size.widthPx},
                    {"height_px", options.size.heightPx},
                    {"tau_px", options.view.lod.tauPx},
-                   {"budget_mb", options.view.paging.budgetMB}};
+                   {"budget_mb", options.view.paging.budgetMB},
+                   {terms::lateChunkS.key, lateChunkS}};
     for (const Quantity& quantity : quantities) {
         const Spread spread = spreadOf(frames, quantity);
         const auto figure = [&](double value) {
@@ -193,7 +213,7 @@ void printBudget(const Flown& flown) {
 }
 
 void printSummary(const Flown& flown) {
-    const auto& [path, frames, thrash] = flown;
+    const auto& [path, frames, thrash, lateChunkS] = flown;
     fmt::print("{}: {} frames over {:.0f} s\n\n{:20}{:>16}{:>16}{:>16}\n", path.name, frames.size(),
                durationS(path), "", "median", "99th percentile", "maximum");
     for (const Quantity& quantity : quantities) {
@@ -202,6 +222,13 @@ void printSummary(const Flown& flown) {
         fmt::print("{:20}{:16.{}f}{:16.{}f}{:16.{}f}\n", quantity.name, s.median, digits, s.percentile99,
                    digits, s.maximum, digits);
     }
+    fmt::print("\n{}: {:.1f}\n", terms::lateChunkS.name, lateChunkS);
+}
+
+void printPrefetch(const FrameStats& last) {
+    const planet::PrefetchCounters prefetch = last.paging.prefetch();
+    fmt::print("Prefetched: {} blocks, {:.3f} MB; {} hits, {} wasted, {} unused\n", prefetch.blocks,
+               static_cast<double>(prefetch.bytes) / 1e6, prefetch.hits, prefetch.wasted, prefetch.unused());
 }
 
 }  // namespace
@@ -226,16 +253,19 @@ Result<void> flyPath(const FlyOptions& options) {
         trace.emplace(std::move(*created));
     }
     const InterruptWatch watch;
-    Flown flown{*path, {}, 0};
+    Flown flown{*path, {}, 0, 0};
+    std::optional<FlightAnnouncement> announced;
     ViewSettings settings = options.view;
     Governing governing;
     planet::LodChanges changes;
     for (int i = 0; i < moments->count; ++i) {
         if (watch.interrupted()) return planet::cancelled();
         const double elapsedS = i > 0 ? moments->stepS : 0;
+        announceAhead(*offscreen, *path, moments->timeS(i), settings, announced);
         Result<FlownFrame> frame = flyFrame(*offscreen, *path, moments->timeS(i), elapsedS, settings);
         if (!frame) return tl::unexpected(frame.error());
         FrameStats& stats = frame->stats;
+        flown.lateChunkS += moments->stepS * stats.selection.waiting;
         changes.add(planet.selection(), frame->timeS);
         governTau(governing, &stats, planet, elapsedS, settings);
         stats.budget = governing.use;
@@ -252,6 +282,8 @@ Result<void> flyPath(const FlyOptions& options) {
     if (!options.report.json) {
         printSummary(flown);
         if (options.view.budget.isOn()) printBudget(flown);
+        if (options.view.paging.prefetch.mode != planet::PrefetchMode::Off)
+            printPrefetch(flown.frames.back().stats);
     }
     return writeReport(options.report, jsonOf(options, flown));
 }

@@ -162,6 +162,16 @@ CommandFiles filesOf(const PopsOptions& options) {
     return files;
 }
 
+CommandFiles filesOf(const PrefetchOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.push_back(options.flight);
+    addLayerFiles(files, options.view);
+    files.outputs = {
+        {options.report.file, isCsvTable(options.report.file) ? OutputKind::Csv : OutputKind::Json}};
+    return files;
+}
+
 CommandFiles filesOf(const ReplayOptions& options) {
     CommandFiles files;
     addChunkFile(files, options.file);

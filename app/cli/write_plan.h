@@ -10,6 +10,7 @@
 #include "app/cli/cracks_command.h"
 #include "app/cli/fly_command.h"
 #include "app/cli/pops_command.h"
+#include "app/cli/prefetch_command.h"
 #include "app/cli/replay_command.h"
 #include "app/cli/schedule_command.h"
 #include "app/cli/shot_command.h"
@@ -32,6 +33,7 @@ CommandFiles filesOf(const CracksOptions& options);
 CommandFiles filesOf(const FlyOptions& options);
 CommandFiles filesOf(const MakeLayersOptions& options);
 CommandFiles filesOf(const PopsOptions& options);
+CommandFiles filesOf(const PrefetchOptions& options);
 // Returns the files without the recording's chunk file, which is known only after the recording is read.
 CommandFiles filesOf(const ReplayOptions& options);
 CommandFiles filesOf(const ShotOptions& options);

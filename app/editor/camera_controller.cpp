@@ -253,6 +253,17 @@ void followCamera(CameraController& camera, const Viewport& viewport, const Came
                     (toM != fromM && (placed || planet::isCameraJump(fromM, toM, camera.radiusM, passedS)));
 }
 
+void announceCamera(CameraController& camera, Scene& scene, const ViewSettings& settings,
+                    Recorder* recorder) {
+    const planet::PrefetchSettings& prefetch = settings.paging.prefetch;
+    // A frozen view does not follow the camera.
+    if (prefetch.mode != planet::PrefetchMode::Announced || camera.lodFrozen || !camera.rig) return;
+    const auto ahead = takeAnnouncement(*camera.rig, prefetch.horizonS, camera.lodView, camera.radiusM);
+    if (!ahead) return;
+    scene.planet->announce(*ahead);
+    if (recorder) recorder->announced(*scene.planet, *ahead);
+}
+
 planet::View mainView(const CameraController& camera, const Viewport& viewport,
                       const CameraSettings& settings) {
     return viewOfPicture(camera.rig->camera, viewport.main, viewport.observer, viewport.pixelRatio, settings);

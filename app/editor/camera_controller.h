@@ -10,6 +10,7 @@
 #include "app/editor/camera_rig.h"
 #include "app/editor/notices.h"
 #include "app/editor/viewport.h"
+#include "app/flight/recorder.h"
 #include "app/measure/pop_side.h"
 #include "app/settings/settings.h"
 #include "app/window/window.h"
@@ -88,6 +89,10 @@ bool hasDeviceInput(const CameraController& camera, const Window& window);
 // seconds.
 void followCamera(CameraController& camera, const Viewport& viewport, const CameraSettings& settings,
                   double passedS);
+
+// Announces to the planet where the camera will be, if that is known and the settings prefetch it. recorder: null unless
+// the flight is recorded.
+void announceCamera(CameraController& camera, Scene& scene, const ViewSettings& settings, Recorder* recorder);
 
 // Return the views of the main and the observer's picture; the latter needs an observer.
 planet::View mainView(const CameraController& camera, const Viewport& viewport,

@@ -286,6 +286,28 @@ bool takeJump(CameraRig& rig) {
     return std::exchange(rig.jumped, false);
 }
 
+std::optional<std::vector<planet::AnnouncedView>> takeAnnouncement(CameraRig& rig, double horizonS,
+                                                                   const planet::View& like, double radiusM) {
+    RigAnnouncement& announced = rig.announced;
+    if (rig.glide) {
+        if (std::exchange(announced, {{}, true}).isGlide) return std::nullopt;
+        planet::View view = viewOf(rig.glide->to, like.horizontalFovRad, like.widthPx, like.heightPx);
+        return std::vector<planet::AnnouncedView>{{view, (1 - rig.glide->share) * glideS}};
+    }
+    const FollowedFlight* flight =
+        rig.mode == CameraMode::FollowFlight && rig.flight ? &*rig.flight : nullptr;
+    if (!flight || flight->from || flight->paused) {
+        const RigAnnouncement before = std::exchange(announced, {});
+        if (!before.flight && !before.isGlide) return std::nullopt;
+        return std::vector<planet::AnnouncedView>();
+    }
+    const double timeS = flight->path.keys.front().timeS + flight->timeS;
+    if (announced.flight && announced.flight->holds(timeS, horizonS, 1)) return std::nullopt;
+    AnnouncedFlight next = announceFlight(flight->path, timeS, 1, horizonS, like, radiusM);
+    announced = {next.announcement, false};
+    return std::move(next.views);
+}
+
 void pauseFlight(CameraRig& rig, bool paused) {
     if (rig.flight) rig.flight->paused = paused;
 }

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <vector>
 
+#include "app/flight/announce_flight.h"
 #include "app/flight/flight_path.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/camera_paths.h"
@@ -49,6 +51,12 @@ struct GrabbedPoint {
     glm::dvec3 direction{0, 0, -1};  // where it stays in the picture, as holding() takes it
 };
 
+// What a rig has announced to the planet last.
+struct RigAnnouncement {
+    std::optional<FlightAnnouncement> flight{};
+    bool isGlide = false;
+};
+
 struct CameraRig {
     Camera camera;
     double speedFactor = 1;                  // [minSpeedFactor, maxSpeedFactor]
@@ -59,6 +67,7 @@ struct CameraRig {
     std::optional<GrabbedPoint> grab{};      // none: the pointer holds no point
     // True after a jump since takeJump(), during a glide, and during the transition to a flight.
     bool jumped = false;
+    RigAnnouncement announced{};
 };
 
 // Runs one frame in the mode of the settings. Input from the user ends a glide, and following a flight: settings.mode
@@ -79,6 +88,12 @@ void glideRig(CameraRig& rig, const Camera& camera, CameraSettings& settings);
 void orbitPoint(CameraRig& rig, const glm::dvec3& pointM, CameraSettings& settings);
 
 bool takeJump(CameraRig& rig);
+
+// Returns the views of the flight that the camera follows, or of the place that it glides to, for Planet::announce();
+// nothing while what was returned last still holds. It is empty if the camera has left its flight. like: has the
+// size and the field of view of the picture.
+std::optional<std::vector<planet::AnnouncedView>> takeAnnouncement(CameraRig& rig, double horizonS,
+                                                                   const planet::View& like, double radiusM);
 
 // Follows a flight from its start.
 planet::Result<void> startFlight(CameraRig& rig, const std::filesystem::path& file, CameraSettings& settings);

@@ -374,6 +374,7 @@ void Editor::chooseChunks(Scene& scene, const FrameStep& step) {
     const ViewSettings& settings = settings_.settings.view;
     Pops& pops = instruments_.pops;
     followCamera(camera_, viewport_, settings.camera, std::max(frames_.timeS - pops.meter.lastTimeS(), 0.0));
+    announceCamera(camera_, scene, settings, recording_.recorder ? &*recording_.recorder : nullptr);
     if (observerChooses(viewport_, settings.camera))
         stepScene(scene, camera_.lodView, observerView(camera_, viewport_, settings.camera), settings,
                   step.elapsedS);

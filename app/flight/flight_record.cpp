@@ -120,12 +120,16 @@ bool sameView(const FlownView& a, const FlownView& b) {
     return a.view == b.view && a.priorityFactor == b.priorityFactor;
 }
 
-void putView(ByteWriter& out, const FlownView& flown) {
-    for (const glm::dvec3& vector : {flown.view.eyeM, flown.view.right, flown.view.up, flown.view.back})
+void putView(ByteWriter& out, const planet::View& view) {
+    for (const glm::dvec3& vector : {view.eyeM, view.right, view.up, view.back})
         for (int i = 0; i < 3; ++i) out.put(vector[i]);
-    out.put(flown.view.horizontalFovRad);
-    putVarint(out, static_cast<std::uint64_t>(flown.view.widthPx));
-    putVarint(out, static_cast<std::uint64_t>(flown.view.heightPx));
+    out.put(view.horizontalFovRad);
+    putVarint(out, static_cast<std::uint64_t>(view.widthPx));
+    putVarint(out, static_cast<std::uint64_t>(view.heightPx));
+}
+
+void putView(ByteWriter& out, const FlownView& flown) {
+    putView(out, flown.view);
     out.put(flown.priorityFactor);
 }
 
@@ -139,14 +143,22 @@ void putCalls(ByteWriter& out, const std::vector<CalledInFlight>& calls) {
             for (const std::string& assignment : called.settings) putText(out, assignment);
         }
         if (called.call == FlightCall::RetryBlock) putBlock(out, called.block);
+        if (called.call == FlightCall::Announce) {
+            putVarint(out, called.announced.size());
+            for (const planet::AnnouncedView& one : called.announced) {
+                putView(out, one.view);
+                out.put(one.inS);
+            }
+        }
         putMoves(out, called.moves);
     }
 }
 
-// Returns the number of calls of a frame plus the number of their settings.
+// Returns the number of calls of a frame plus the number of their settings and announced views.
 std::size_t callsIn(const FlightFrame& frame) {
     std::size_t calls = frame.calls.size();
-    for (const CalledInFlight& called : frame.calls) calls += called.settings.size();
+    for (const CalledInFlight& called : frame.calls)
+        calls += called.settings.size() + called.announced.size();
     return calls;
 }
 
@@ -284,9 +296,8 @@ bool isUnit(const glm::dvec3& vector) {
     return std::abs(glm::length(vector) - 1) < 1e-6;
 }
 
-FlownView readView(Reader& in) {
-    FlownView flown;
-    planet::View& view = flown.view;
+planet::View readView(Reader& in) {
+    planet::View view;
     view.eyeM = readVector(in, farthestEyeM);
     view.right = readVector(in, 2);
     view.up = readVector(in, 2);
@@ -302,7 +313,13 @@ FlownView readView(Reader& in) {
     if (!in.ok()) return {};
     view.widthPx = static_cast<int>(width);
     view.heightPx = static_cast<int>(height);
-    flown.priorityFactor = in.number(1e-9, 1e9);
+    return view;
+}
+
+FlownView readFlownView(Reader& in) {
+    FlownView flown;
+    flown.view = readView(in);
+    if (in.ok()) flown.priorityFactor = in.number(1e-9, 1e9);
     return flown;
 }
 
@@ -342,7 +359,7 @@ std::vector<FlownView> readViews(Reader& in) {
         return {};
     }
     std::vector<FlownView> views(count);
-    for (FlownView& view : views) view = readView(in);
+    for (FlownView& view : views) view = readFlownView(in);
     return views;
 }
 
@@ -351,15 +368,14 @@ struct FlightSoFar {
     std::vector<std::set<ChunkId>> drawn;  // by view
     ViewSettings settings;
     double seconds = 0;
-    std::size_t calls = 0;  // calls plus their settings
+    std::size_t calls = 0;  // calls plus their settings and announced views
     std::size_t settingsACall = flightSettings(ViewSettings{}).size();
 };
 
 CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
     CalledInFlight called;
     const auto call = in.get<std::uint8_t>();
-    if (call > static_cast<std::uint8_t>(FlightCall::RetryBlock))
-        in.fail(fmt::format("unknown call {}", call));
+    if (call > static_cast<std::uint8_t>(FlightCall::Announce)) in.fail(fmt::format("unknown call {}", call));
     called.call = static_cast<FlightCall>(call);
     if (in.ok() && called.call == FlightCall::Settings) {
         called.pagingPaused = in.get<std::uint8_t>() != 0;
@@ -371,6 +387,14 @@ CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
             in.fail("invalid setting: " + good.error().message);
     }
     if (called.call == FlightCall::RetryBlock) called.block = in.block();
+    if (in.ok() && called.call == FlightCall::Announce) {
+        constexpr std::size_t leastBytes = 115;  // of a view and its time
+        for (std::size_t left = in.countUpTo(planet::maxAnnounced, "announced views in a call", leastBytes);
+             left > 0 && in.ok(); --left) {
+            const planet::View view = readView(in);
+            called.announced.push_back({view, in.number(0, planet::latestAnnouncedS)});
+        }
+    }
     called.moves = in.moves();
     return called;
 }
@@ -379,9 +403,9 @@ void readCalls(Reader& in, FlightFrame& frame, FlightSoFar& soFar) {
     for (std::size_t left = in.countUpTo(maxCallsAFrame, "calls in a frame", 5); left > 0 && in.ok();
          --left) {
         frame.calls.push_back(readCall(in, soFar));
-        soFar.calls += 1 + frame.calls.back().settings.size();
+        soFar.calls += 1 + frame.calls.back().settings.size() + frame.calls.back().announced.size();
         if (soFar.calls > maxFlightCalls) {
-            in.fail(fmt::format("more than {} calls and settings", maxFlightCalls));
+            in.fail(fmt::format("more than {} calls, settings and announced views", maxFlightCalls));
         }
     }
 }

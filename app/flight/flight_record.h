@@ -32,8 +32,9 @@ inline constexpr std::size_t maxFlightFrames = 216'000;   // an hour at 60 frame
 inline constexpr std::size_t maxFlightBytes = 64u << 20;  // size of the content
 inline constexpr double maxFlightS = 1e6;
 inline constexpr std::size_t maxCallsAFrame = 1000;
-inline constexpr std::size_t maxFlightCalls = 2 * maxFlightFrames;  // calls of all frames plus their settings
-inline constexpr std::size_t maxFlightChunks = 1u << 20;            // chunks drawn at once in a view
+inline constexpr std::size_t maxFlightCalls =
+    2 * maxFlightFrames;  // calls of all frames plus their settings and announced views
+inline constexpr std::size_t maxFlightChunks = 1u << 20;  // chunks drawn at once in a view
 
 // Identifies the chunk file of a flight. Copies of a file have the same identity.
 struct FlightData {
@@ -48,7 +49,7 @@ planet::Result<void> checkSameData(const std::filesystem::path& flight, const Fl
                                    const FlightData& present);
 
 // A call to the planet between two steps.
-enum class FlightCall : std::uint8_t { DropAll, LoadOne, RetryFailed, Settings, RetryBlock };
+enum class FlightCall : std::uint8_t { DropAll, LoadOne, RetryFailed, Settings, RetryBlock, Announce };
 
 struct CalledInFlight {
     FlightCall call = FlightCall::DropAll;
@@ -56,6 +57,8 @@ struct CalledInFlight {
     // For Settings: the changed settings, "lod.tau_px=3", or all of them in the first frame.
     std::vector<std::string> settings{};
     bool pagingPaused = false;  // for Settings
+    // For Announce: the path of the first view, at most planet::maxAnnounced points.
+    std::vector<planet::AnnouncedView> announced{};
     planet::PagingMoves moves{};
 };
 
@@ -110,7 +113,7 @@ public:
 private:
     std::vector<std::byte> bytes_;
     std::size_t frames_ = 0;
-    std::size_t calls_ = 0;  // calls plus their settings
+    std::size_t calls_ = 0;  // calls plus their settings and announced views
     double seconds_ = 0;
     bool ended_ = false;
     std::vector<FlownView> views_;  // views of the frame before

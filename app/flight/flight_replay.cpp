@@ -123,6 +123,7 @@ Result<void> FlightReplay::repeat(const CalledInFlight& called, const ReplayedPl
     if (called.call == FlightCall::DropAll) replayed.planet.tools().dropAll();
     if (called.call == FlightCall::LoadOne) replayed.planet.tools().loadOne();
     if (called.call == FlightCall::RetryFailed) replayed.planet.tools().retryFailed();
+    if (called.call == FlightCall::Announce) replayed.planet.announce(called.announced);
     if (called.call == FlightCall::RetryBlock) replayed.planet.tools().retryFailed(called.block);
     return {};
 }

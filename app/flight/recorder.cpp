@@ -27,6 +27,7 @@ ViewSettings heldSettings(const planet::Planet& planet, ViewSettings settings) {
     settings.paging.budgetMB = static_cast<int>(held.budgetBytes >> 20);
     settings.paging.loaderThreads = held.loaderThreads;
     settings.paging.uploadLimitMs = held.uploadLimitMs;
+    settings.paging.prefetch = held.prefetch;
     settings.paging.badDisk = held.badDisk;
     settings.paging.retries = held.retry.retries;
     settings.paging.retryDelayS = held.retry.delayS;
@@ -60,6 +61,12 @@ Recorder::Recorder(planet::Planet& planet, std::string name)
 
 void Recorder::called(planet::Planet& planet, FlightCall call, const planet::BlockId& block) {
     frame_.calls.push_back({.call = call, .block = block, .moves = planet.tools().takeMoves()});
+}
+
+void Recorder::announced(planet::Planet& planet, std::span<const planet::AnnouncedView> path) {
+    CalledInFlight call{.call = FlightCall::Announce, .moves = planet.tools().takeMoves()};
+    call.announced.assign(path.begin(), path.end());
+    frame_.calls.push_back(std::move(call));
 }
 
 void Recorder::givenSettings(planet::Planet& planet, const ViewSettings& asked, bool pagingPaused) {

@@ -24,6 +24,8 @@ public:
 
     // Records a call. block is for RetryBlock.
     void called(planet::Planet& planet, FlightCall call, const planet::BlockId& block = {});
+    // Records an announcement for the first view.
+    void announced(planet::Planet& planet, std::span<const planet::AnnouncedView> path);
     // Records changed settings; may be called in every frame. Records the paging settings that the planet
     // actually has, which differ from the requested ones if the GPU is out of memory.
     void givenSettings(planet::Planet& planet, const ViewSettings& asked, bool pagingPaused);

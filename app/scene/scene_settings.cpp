@@ -76,6 +76,7 @@ planet::PagingSettings pagingSettingsOf(const ViewSettings& settings, bool pause
             .normals =
                 settings.surface.lighting && planet::gl::isUsed(settings.surface.light.normals.use, software),
             .normalShare = settings.paging.normalShare,
+            .prefetch = settings.paging.prefetch,
             .time = time.value_or(asSet)};
 }
 

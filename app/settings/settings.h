@@ -22,6 +22,7 @@ inline constexpr std::array<std::string_view, 2> colourModeNames = {"tiles", "cl
 inline constexpr std::array<std::string_view, 2> errorMetricNames = {"additive", "tight"};
 inline constexpr std::array<std::string_view, 3> seamModeNames = {"none", "skirts", "stitched"};
 inline constexpr std::array<std::string_view, 2> skirtDepthNames = {"automatic", "fixed"};
+inline constexpr std::array<std::string_view, 3> prefetchModeNames = {"off", "motion", "announced"};
 inline constexpr std::array<std::string_view, 3> skirtPaintNames = {"as_ground", "loud", "loud_alone"};
 inline constexpr std::array<std::string_view, 4> chunkLabelsNames = {"none", "level", "error",
                                                                      "level_and_error"};

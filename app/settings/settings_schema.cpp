@@ -187,6 +187,25 @@ void addPaging(Fields& fields, PagingOptions& paging) {
           "A flight then loads the same blocks in the same frames on any machine. Without latency and "
           "bandwidth a read takes no time. Changing this restarts reads in progress.",
           Flag{&paging.simulated}},
+         {"paging", "prefetch", "Predict",
+          "What is loaded before the picture wants it. Motion: what the camera will want if it goes on as it "
+          "moves now. Announced: what it will want along a flight or at the end of a glide; otherwise as "
+          "motion. Prefetches are read only while nothing else is queued, and evict nothing that is in use. "
+          "Off: nothing is read early.",
+          Choice{asByte(paging.prefetch.mode), prefetchModeNames}, "Prefetch"},
+         {"paging", "prefetch_horizon_s", "Horizon",
+          "How far ahead prefetching looks. Larger: more is there in time if the camera moves as predicted, "
+          "but more is read in vain if it does not.",
+          Number{&paging.prefetch.horizonS, {0.1, 60, "s"}, "%.1f", logarithmic}, "Prefetch horizon"},
+         {"paging", "prefetch_share", "Loader share",
+          "Fraction of the loaders' time that prefetching may take while nothing else is queued. Smaller: a "
+          "loader is more often free when the picture needs something. Larger: more is there in time.",
+          Number{&paging.prefetch.share, {0.01, 1, ""}}, "Prefetch share"},
+         {"paging", "prefetch_lasting_first", "Lasting first",
+          "Reads those blocks first, of all that the picture wants, that it will still want when they can "
+          "arrive, while the loaders fall behind. Off: the largest error comes first, also where the camera "
+          "passes before the data is there.",
+          Flag{&paging.prefetch.lastingFirst}, "Prefetch, lasting first"},
          {"bad_disk", "latency_ms", "Latency",
           "I/O fault injection: latency added to each read, varied randomly by ±50 %. Larger: detail arrives "
           "later; more loaders hide part of it.",

@@ -8,6 +8,7 @@
 
 #include "planet/gl/draw/render_settings.h"
 #include "planet/paging/disk_simulator.h"
+#include "planet/paging/paging_types.h"
 #include "planet/select/lod_select.h"
 #include "planet/sphere/sun.h"
 #include "planet/surface/layer_set.h"
@@ -26,6 +27,7 @@ struct PagingOptions {
     double normalShare = 0.2;
     int retries = 4;
     double retryDelayS = 0.25;
+    planet::PrefetchSettings prefetch;
     planet::BadDiskSettings badDisk;
     bool simulated = false;
 

@@ -201,10 +201,16 @@ worldy::FlightFrame madeFrame(int frame) {
     made.moves.arrived = {{id, PagingOutcome::Loaded}};
     made.selectionHash = static_cast<std::uint64_t>(frame) * 0x9E3779B97F4A7C15u;
     if (frame == 0)
-        made.calls.push_back(
-            {worldy::FlightCall::Settings, {}, worldy::flightSettings(worldy::ViewSettings{}), false, {}});
-    if (frame == 3) made.calls.push_back({worldy::FlightCall::Settings, {}, {"lod.tau_px=3"}, true, {}});
-    if (frame == 5) made.calls.push_back({worldy::FlightCall::DropAll, {}, {}, false, made.moves});
+        made.calls.push_back({worldy::FlightCall::Settings,
+                              {},
+                              worldy::flightSettings(worldy::ViewSettings{}),
+                              false,
+                              {},
+                              {}});
+    if (frame == 3) made.calls.push_back({worldy::FlightCall::Settings, {}, {"lod.tau_px=3"}, true, {}, {}});
+    if (frame == 4)
+        made.calls.push_back({worldy::FlightCall::Announce, {}, {}, false, {{flown.view, 1.5}}, {}});
+    if (frame == 5) made.calls.push_back({worldy::FlightCall::DropAll, {}, {}, false, {}, made.moves});
     return made;
 }
 

@@ -20,7 +20,7 @@ TEST(CommandLine, HelpAndVersionEndWell) {
     const Ran help = runWorldy(folder, "--help");
     EXPECT_EQ(help.exitCode, 0);
     for (const char* command : {"bake", "info", "verify", "probe", "shot", "fly", "cracks", "pops", "sweep",
-                                "bench", "audit", "compare", "make-layers", "trace", "attach"}) {
+                                "bench", "audit", "compare", "make-layers", "trace", "attach", "prefetch"}) {
         EXPECT_THAT(help.output, HasSubstr(command));
         const Ran own = runWorldy(folder, std::string(command) + " --help");
         EXPECT_EQ(own.exitCode, 0) << command;
@@ -55,7 +55,7 @@ TEST(CommandLine, TheReadmeSaysWhichCommandTakesWhichSharedOption) {
     ASSERT_GE(takers.size(), 15u);
     for (const char* command :
          {"bake", "info", "verify", "probe", "shot", "fly", "bench", "sweep", "cracks", "costs", "pops",
-          "audit", "replay", "compare", "settings", "make-layers", "trace", "attach", "schedule"}) {
+          "prefetch", "audit", "replay", "compare", "settings", "make-layers", "trace", "attach", "schedule"}) {
         const std::set<std::string> options =
             optionsOf(runWorldy(folder, std::string(command) + " --help").output);
         EXPECT_TRUE(options.contains("--json")) << command;

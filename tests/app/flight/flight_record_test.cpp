@@ -93,6 +93,13 @@ protected:
                 planet.tools().dropAll();
                 recorder.called(planet, FlightCall::DropAll);
             }
+            if (settings.paging.prefetch.mode == planet::PrefetchMode::Announced && frame % 16 == 0) {
+                std::vector<planet::AnnouncedView> ahead;
+                for (int later = 10; later <= 60; later += 10)
+                    ahead.push_back({viewAt(frame + later), later / 60.0});
+                planet.announce(ahead);
+                recorder.announced(planet, ahead);
+            }
             const bool paused = frame >= 70 && frame < 78;
             if (frame == 74) {
                 planet.tools().loadOne();
@@ -246,6 +253,47 @@ TEST_F(FlightRecordTest, AFlightBySimulatedTimeReplaysExactlyEitherWay) {
     const FlightRecord record = loadFlightRecord(written(recorder)).value();
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
     EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+}
+
+TEST_F(FlightRecordTest, PrefetchesReplayExactlyEitherWay) {
+    for (const auto mode : {planet::PrefetchMode::Motion, planet::PrefetchMode::Announced}) {
+        for (const bool simulated : {false, true}) {
+            ViewSettings settings = troubled(simulated);
+            settings.paging.prefetch = {.mode = mode, .horizonS = 1, .share = 0.8};
+            const auto planet = openPlanet(settings);
+            planet->settle(viewAt(90), lodSettingsOf(settings), headless(*planet).upload, 60);
+            const Recorder recorder = flyAbout(*planet, settings, 150);
+            EXPECT_GT(planet->paging().prefetch().blocks, 5u);
+            const FlightRecord record = loadFlightRecord(written(recorder)).value();
+            EXPECT_EQ(firstOf(replayed(record, ReplayPaging::AsRecorded)), "none");
+            if (!simulated) continue;
+            EXPECT_EQ(firstOf(replayed(record, ReplayPaging::Simulated)), "none");
+        }
+    }
+}
+
+TEST_F(FlightRecordTest, AnnouncedViewsAreCheckedAsTheyAreRead) {
+    const auto planet = openPlanet(troubled(true));
+    Recorder recorder(*planet, "announced");
+    const std::vector<planet::AnnouncedView> ahead = {{viewAt(40), 0.5}, {viewAt(90), 3599}};
+    planet->announce(ahead);
+    recorder.announced(*planet, ahead);
+    step(*planet, recorder, troubled(true), 0);
+    const FlightRecord record = loadFlightRecord(written(recorder)).value();
+    const CalledInFlight& called = record.frames[0].calls[0];
+    ASSERT_EQ(called.call, FlightCall::Announce);
+    ASSERT_EQ(called.announced.size(), 2u);
+    EXPECT_EQ(called.announced[1].view, viewAt(90));
+    EXPECT_EQ(called.announced[1].inS, 3599);
+
+    Recorder tooLate(*planet, "too late");
+    tooLate.announced(*planet, std::vector<planet::AnnouncedView>{{viewAt(40), 3601}});
+    step(*planet, tooLate, troubled(true), 0);
+    EXPECT_FALSE(loadFlightRecord(written(tooLate)));
+    Recorder tooMany(*planet, "too many");
+    tooMany.announced(*planet, std::vector<planet::AnnouncedView>(planet::maxAnnounced + 1, {viewAt(40), 1}));
+    step(*planet, tooMany, troubled(true), 0);
+    EXPECT_FALSE(loadFlightRecord(written(tooMany)));
 }
 
 // The flight crosses the rim of the fine part.

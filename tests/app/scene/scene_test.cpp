@@ -61,6 +61,7 @@ TEST_F(SceneTest, everySettingOfPagingReachesTheLibrary) {
     settings_.paging = {.budgetMB = 64,
                         .loaderThreads = 3,
                         .uploadLimitMs = 1.5,
+                        .prefetch = {.mode = planet::PrefetchMode::Motion, .horizonS = 3, .share = 0.4},
                         .badDisk = {.latencyMs = 5, .failureRate = 0.5, .seed = 9}};
     const planet::PagingSettings paging = pagingSettingsOf(settings_, true);
     EXPECT_EQ(paging.budgetBytes, 64u << 20);
@@ -68,6 +69,7 @@ TEST_F(SceneTest, everySettingOfPagingReachesTheLibrary) {
     EXPECT_EQ(paging.uploadLimitMs, 1.5);
     EXPECT_TRUE(paging.paused);
     EXPECT_EQ(paging.badDisk, settings_.paging.badDisk);
+    EXPECT_EQ(paging.prefetch, settings_.paging.prefetch);
     EXPECT_EQ(paging.time, planet::PagingTime::Clock);
     settings_.paging.simulated = true;
     EXPECT_EQ(pagingSettingsOf(settings_).time, planet::PagingTime::Simulated);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <span>
 
+#include "app/base/glossary.h"
 #include "app/base/plot_scale.h"
 #include "app/base/text.h"
 #include "planet/base/percentile.h"
@@ -232,6 +233,39 @@ void totals(const EditorView& view) {
     totalsByKind(view.frames.stats);
 }
 
+std::string blocksText(std::uint64_t blocks, std::uint64_t bytes) {
+    return fmt::format("{} blocks, {}", countText(countNumber(blocks)), bytesText(countNumber(bytes)));
+}
+
+void prefetchFigures(const planet::PrefetchCounters& p) {
+    if (!beginValues("prefetch figures")) return;
+    const std::uint64_t judged = p.hits + p.wasted;
+    valueRow(terms::prefetchedBlocks.name, blocksText(p.blocks, p.bytes), terms::prefetchedBlocks.meaning);
+    valueRow(terms::prefetchHits.name, blocksText(p.hits, p.hitBytes), terms::prefetchHits.meaning,
+             p.hits > 0 ? &palette().good : nullptr);
+    valueRow(terms::prefetchWaste.name, blocksText(p.wasted, p.wastedBytes), terms::prefetchWaste.meaning,
+             p.wasted > 0 ? &palette().warning : nullptr);
+    valueRow("Hit rate",
+             judged > 0 ? fmt::format("{:.0f} %", 100 * countNumber(p.hits) / countNumber(judged)) : "-",
+             "Hits as a share of hits and waste.");
+    valueRow(terms::prefetchUnused.name, countCell(p.unused()), terms::prefetchUnused.meaning);
+    valueRow("Pending", countCell(p.pending), "Prefetches that are queued or being read now.");
+    endValues();
+}
+
+void prefetchSection(const SettingControls& control, PagingOptions& paging,
+                     const planet::PrefetchCounters& counters) {
+    planet::PrefetchSettings& prefetch = paging.prefetch;
+    control(prefetch.mode);
+    const bool isOff = prefetch.mode == planet::PrefetchMode::Off;
+    beginGrey(isOff, "Choose a prediction first.");
+    control(prefetch.horizonS);
+    control(prefetch.share);
+    control(prefetch.lastingFirst);
+    endGrey();
+    if (!isOff || counters.blocks > 0) prefetchFigures(counters);
+}
+
 void badDisk(const SettingControls& control, PagingOptions& paging) {
     planet::BadDiskSettings& disk = paging.badDisk;
     if (isBad(disk)) {
@@ -260,7 +294,11 @@ void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::
     std::vector<PagingRow>& queue = sample.queue;
     queue.clear();
     sample.hidden = 0;
-    sample.loads = planet.inspect().pendingRequests(planet::PagingType::PageIn).size();
+    const std::vector<planet::PagingRequest> loads =
+        planet.inspect().pendingRequests(planet::PagingType::PageIn);
+    sample.loads = static_cast<std::size_t>(
+        std::ranges::count_if(loads, [](const auto& load) { return !load.isPrefetch(); }));
+    sample.prefetches = loads.size() - sample.loads;
     sample.evictions = planet.inspect().pendingRequests(planet::PagingType::PageOut).size();
     for (const planet::PagingType type : {planet::PagingType::PageIn, planet::PagingType::PageOut}) {
         const auto requests =
@@ -275,6 +313,7 @@ void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::
                           request.priority, request.askedAtS, request.timesAsked};
             for (std::size_t v = 0; v < request.viewPriority.size(); ++v)
                 if (request.viewPriority[v] > 0) row.views |= 1u << v;
+            row.urgency = request.urgency;
             queue.push_back(row);
         }
     }
@@ -333,8 +372,18 @@ std::size_t wantingView(std::uint32_t views, std::size_t viewCount) {
     return 0;
 }
 
+const char* typeText(const PagingRow& row) {
+    if (row.type == planet::PagingType::PageOut) return "evict";
+    return row.urgency == planet::PagingUrgency::Prefetch ? "prefetch" : "load";
+}
+
 std::string reason(const planet::Planet& planet, const PagingRow& row, int shownView, double ageS) {
     if (row.type == planet::PagingType::PageOut) return pageOutReason(ageS);
+    if (row.urgency == planet::PagingUrgency::Prefetch) {
+        // The priority is about 1 / seconds, times the factor of the view.
+        const bool isOneView = planet.views().size() == 1 && row.priority > 0;
+        return isOneView ? fmt::format("wanted in {:.1f} s", 1 / row.priority) : "predicted";
+    }
     if (row.kind != planet::BlockKind::Heights) return colourReason(row.priority);
     const planet::NodeIndex index = planet::findNode(planet.tree(), row.parent);
     if (index == planet::noNode) return "parent evicted";
@@ -346,6 +395,7 @@ std::string reason(const planet::Planet& planet, const PagingRow& row, int shown
     const double epsPx = planet::epsPxOf(node, lodView.eyeM, planet::screenScalePx(lodView), lod.metric);
     std::string text = pageInReason(epsPx, lod.tauPx, lod.hysteresis, epsSymbol(), tauSymbol());
     if (planet.views().size() > 1) text += fmt::format(", view {}", v + 1);
+    if (row.urgency == planet::PagingUrgency::Passing) text += ", passing";
     return text;
 }
 
@@ -403,7 +453,7 @@ void queueFilter(const EditorView& view, PagingPanelState& state) {
     filterBox(state.filter, "requests");
     sameLineIfRoom(checkboxWidth("Load"));
     ImGui::Checkbox("Load", &state.showPageIns);
-    tooltip("Load requests, most urgent first.");
+    tooltip("Load requests, most urgent first; prefetches are last.");
     ImGui::SameLine();
     ImGui::Checkbox("Evict", &state.showPageOuts);
     tooltip(
@@ -436,11 +486,10 @@ std::span<const PagingRow> shownQueue(const PagingPanelState& state) {
 std::vector<const PagingRow*> filteredQueue(const EditorView& view, const PagingPanelState& state) {
     std::vector<const PagingRow*> rows;
     for (const PagingRow& row : shownQueue(state)) {
-        const bool isLoad = row.type == planet::PagingType::PageIn;
         const auto passesFilter = [&] {
             const double ageS = std::max(view.planet->lastStep().nowS - row.askedAtS, 0.0);
             return passes(state.filter.view(),
-                          {planet::toString(row.parent), kindText(row.kind), isLoad ? "load" : "evict",
+                          {planet::toString(row.parent), kindText(row.kind), typeText(row),
                            reason(*view.planet, row, state.shownView, ageS)});
         };
         if (state.filter.empty() || passesFilter()) rows.push_back(&row);
@@ -462,7 +511,7 @@ const char* emptyQueueText(const EditorView& view, const PagingPanelState& state
 
 // widestChunk: must outlive the columns.
 std::vector<TableColumn> queueColumns(const EditorView& view, const std::string& widestChunk) {
-    const std::array columns = {TableColumn{"Type", 0.6f, nullptr, "evict"},
+    const std::array columns = {TableColumn{"Type", 0.8f, nullptr, "prefetch"},
                                 TableColumn{"Parent", 1.7f, nullptr, widestChunk.c_str()},
                                 TableColumn{"Priority", 0.9f, nullptr, "12.3 M"},
                                 TableColumn{"Age", 1.15f, nullptr, "59 min 59 s"},
@@ -499,7 +548,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
         if (!plain) return std::string(kindText(row.kind));
         switch (*plain) {
             case 0:
-                return row.type == planet::PagingType::PageIn ? 0.0 : 1.0;
+                return std::string(typeText(row));
             case 1:
                 return sortKey(row.parent);
             case 2:
@@ -513,7 +562,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     tableRows(queue.size(), key, [&](std::size_t at) {
         const PagingRow& row = *queue[at];
         const double ageS = ageOf(row);
-        cell(row.type == planet::PagingType::PageIn ? "load" : "evict");
+        cell(typeText(row), row.urgency == planet::PagingUrgency::Prefetch ? palette().dim : palette().text);
         rowLink(row.parent, row.kind, view, commands);
         cell(axisText(row.priority));
         cell(latencyText(ageS));
@@ -521,9 +570,7 @@ void queueTable(const EditorView& view, PagingPanelState& state, Commands& comma
     });
     endTable(exportTable<PagingRow>(
         "paging queue", queue.size(), [&](std::size_t row) { return *queue[row]; },
-        {{"type",
-          [](const PagingRow& row) { return row.type == planet::PagingType::PageIn ? "load" : "evict"; },
-          true},
+        {{"type", [](const PagingRow& row) { return typeText(row); }, true},
          {"kind", [](const PagingRow& row) { return kindText(row.kind); }, true},
          {"parent", [](const PagingRow& row) { return planet::toString(row.parent); }, true},
          {"priority", [](const PagingRow& row) { return row.priority; }},
@@ -694,6 +741,7 @@ void historyTable(const EditorView& view, PagingPanelState& state, Commands& com
          {"size_bytes",
           [=](const Event& event) { return wasRead(event) ? ExportCell(event.bytes) : ExportCell(); }},
          {"requests", [](const Event& event) { return event.timesAsked; }},
+         {"prefetch", [](const Event& event) { return event.isPrefetch ? "yes" : "no"; }, true},
          {"finished_at_s", [](const Event& event) { return event.atS; }, true}}));
 }
 
@@ -746,6 +794,13 @@ void plots(const EditorView& view, PagingPanelState& state, bool wide) {
         });
         rate.push_back({"normals", seriesColour(4), growthPerS(times, normals, windowS)});
     }
+    const planet::PrefetchCounters prefetch = view.frames.stats.paging.prefetch();
+    if (prefetch.bytes > 0) {
+        const auto early = historyValues<double>(view.frames.history, [](const FrameStats& s) {
+            return static_cast<double>(s.paging.prefetch().bytes) / 1e6;
+        });
+        rate.push_back({"prefetched", seriesColour(5), growthPerS(times, early, windowS)});
+    }
     linePlot("read rate", times, rate, "MB/s", 0, lines);
     latencyHistogram(state, lines);
 }
@@ -776,8 +831,10 @@ void failedTab(const EditorView& view, PagingPanelState& state, Commands& comman
 void tables(const EditorView& view, PagingPanelState& state, Commands& commands) {
     if (!ImGui::BeginTabBar("tables")) return;
     const planet::PagingCounters& p = view.frames.stats.paging;
-    // The title counts what is to be loaded, as the status bar and the plot do.
-    const std::string queue = fmt::format("Queue {}###queue", state.sample.loads);
+    // The title counts what is to be loaded, as the status bar and the plot do, and then the prefetches.
+    const std::size_t prefetches = state.sample.prefetches;
+    const std::string queue = fmt::format("Queue {}{}###queue", state.sample.loads,
+                                          prefetches > 0 ? fmt::format(" + {}", prefetches) : std::string());
     if (ImGui::BeginTabItem(queue.c_str())) {
         queueTable(view, state, commands);
         ImGui::EndTabItem();
@@ -805,6 +862,7 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
     const SettingControls control(settings);
     if (!view.planet) {
         settingControls(control, settings.paging, false);
+        prefetchSection(control, settings.paging, {});
         badDisk(control, settings.paging);
         return emptyState("No planet is open. Open one to see its paging requests.");
     }
@@ -820,6 +878,9 @@ void pagingPanel(const EditorView& view, PagingPanelState& state, ViewSettings& 
                                        .draw =
                                            [&] {
                                                pagingControls(view, control, settings, commands);
+                                               if (section("Prefetch"))
+                                                   prefetchSection(control, settings.paging,
+                                                                   view.frames.stats.paging.prefetch());
                                                if (wide && section("I/O fault injection"))
                                                    badDisk(control, settings.paging);
                                            },

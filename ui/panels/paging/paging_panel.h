@@ -20,6 +20,7 @@ struct PagingRow {
     double askedAtS = 0;  // seconds since the planet was opened
     std::uint32_t timesAsked = 1;
     std::uint32_t views = 0;  // bit v: view v wants it
+    planet::PagingUrgency urgency = planet::PagingUrgency::Lasting;
 };
 
 struct PagingPanelState {
@@ -46,7 +47,8 @@ struct PagingPanelState {
         bool latencyOfReading = false;
         std::vector<PagingRow> queue;  // page-ins, then page-outs, each most urgent first
         std::size_t hidden = 0;        // requests of the other kinds
-        std::size_t loads = 0;         // queued loads, of all kinds and views
+        std::size_t loads = 0;         // queued loads, of all kinds and views, without prefetches
+        std::size_t prefetches = 0;    // queued
         std::size_t evictions = 0;
         std::vector<planet::FailedBlock> failed;  // filled only while the list is shown
         bool failedShown = false;
