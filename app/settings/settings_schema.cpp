@@ -203,8 +203,8 @@ void addPaging(Fields& fields, PagingOptions& paging) {
           Number{&paging.prefetch.share, {0.01, 1, ""}}, "Prefetch share"},
          {"paging", "prefetch_lasting_first", "Lasting first",
           "Reads those blocks first, of all that the picture wants, that it will still want when they can "
-          "arrive, while the loaders fall behind. Off: the largest error comes first, also where the camera "
-          "passes before the data is there.",
+          "arrive, while the loaders fall behind. Fewer chunks are late, but those that the camera is about "
+          "to pass stay coarser. Off: the largest error comes first.",
           Flag{&paging.prefetch.lastingFirst}, "Prefetch, lasting first"},
          {"bad_disk", "latency_ms", "Latency",
           "I/O fault injection: latency added to each read, varied randomly by ±50 %. Larger: detail arrives "
