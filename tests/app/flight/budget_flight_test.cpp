@@ -27,7 +27,7 @@
 namespace worldy {
 namespace {
 
-constexpr double frameS = 1.0 / 60;
+constexpr double budgetFrameS = 1.0 / 60;
 
 FlightKey keyAt(double timeS, double latitudeDeg, double longitudeDeg, double altitudeM, double headingDeg,
                 double pitchDeg) {
@@ -104,11 +104,11 @@ Flown fly(planet::Planet& planet, const FlightPath& path, ViewSettings settings,
     planet::LodChanges changes;
     Governing governing;
     Flown flown;
-    for (int i = 0; i * frameS < durationS(path); ++i) {
-        const double timeS = i * frameS;
+    for (int i = 0; i * budgetFrameS < durationS(path); ++i) {
+        const double timeS = i * budgetFrameS;
         const std::array views = {planet::ViewInput{.lodView = viewAt(timeS), .lod = settings.lod}};
         if (recorder) recorder->givenSettings(planet, settings, false);
-        planet.step(views, planet::noUpload, frameS);
+        planet.step(views, planet::noUpload, budgetFrameS);
         constexpr std::array priorities = {1.0};
         if (recorder) recorder->stepped(planet, priorities);
         changes.add(planet.selection(), timeS);
@@ -118,7 +118,7 @@ Flown fly(planet::Planet& planet, const FlightPath& path, ViewSettings settings,
         const auto triangles = static_cast<double>(stats.selection.triangles());
         stats.drawCpuMs = model.ms(triangles) * (timeS >= step.timeS ? step.factor : 1);
         flown.frames.push_back({settings.lod.tauPx, triangles});
-        governTau(governing, &stats, planet, frameS, settings);
+        governTau(governing, &stats, planet, budgetFrameS, settings);
         flown.budgeted.push_back(
             {timeS, useOf(governing.use, stats.drawCpuMs, settings.budget), governing.use.limit});
     }
