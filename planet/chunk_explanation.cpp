@@ -60,6 +60,8 @@ public:
         }
         if (const NodeIndex node = findNode(facts_.tree, out_.decidedBy); node != noNode) {
             out_.decidedByEpsPx = epsPx(facts_.tree.nodes[node]);
+            out_.decidedByTauPx = tauPx(facts_.tree.nodes[node]);
+            out_.regions = regionEffects(facts_.tree, out_.node == noNode ? node : out_.node);
         }
         return out_;
     }
@@ -71,9 +73,18 @@ private:
     double epsPx(const ChunkNode& node) const {
         return epsPxOf(node, facts_.lodView.eyeM, scalePx_, facts_.lod.metric);
     }
-    // Returns d_m, computed as in selection, so that both agree bit for bit.
-    double switchDistanceM(const ChunkNode& node) const {
+    double tauPx(const ChunkNode& node) const {
+        return facts_.lod.tauPx * static_cast<double>(node.demand.tauFactor);
+    }
+    // Returns d_m times the factor of the regions, computed as in selection, so that both agree bit for bit.
+    double reachM(const ChunkNode& node) const {
         return deltaOf(node, facts_.lod.metric) * (scalePx_ / facts_.lod.tauPx);
+    }
+    double switchDistanceM(const ChunkNode& node) const {
+        return reachM(node) / static_cast<double>(node.demand.tauFactor);
+    }
+    bool isWithinTau(const ChunkNode& node) const {
+        return reachM(node) <= distanceOf(node) * static_cast<double>(node.demand.tauFactor);
     }
 
     std::optional<std::size_t> placeInQueue(const ChunkId& parent) const {
@@ -100,6 +111,8 @@ private:
         out_.distanceM = distanceOf(node);
         out_.epsPx = epsPx(node);
         out_.switchDistanceM = switchDistanceM(node);
+        out_.demand = node.demand;
+        out_.metric = metricBy(node.demand.metric, facts_.lod.metric);
         out_.queuePlace = placeInQueue(id_);
         float below = 0;
         const bool childrenKnown = node.childrenState == ChildrenState::Resident;
@@ -122,17 +135,20 @@ private:
 
     // Returns whether the merge of a split chunk waits.
     bool mergeWaits(const ChunkNode& node) const {
+        if (limitOf(node) == RegionLimit::Least && node.id.level < facts_.lod.maxLevel) return false;
         const double keptWithinM = switchDistanceM(node) / (1 - facts_.lod.hysteresis);
-        return node.id.level >= facts_.lod.maxLevel || keptWithinM <= distanceOf(node);
+        return limitOf(node) == RegionLimit::Most || node.id.level >= facts_.lod.maxLevel ||
+               keptWithinM <= distanceOf(node);
     }
 
     // Returns why a drawn chunk is not split.
     WhyNotSplit whyNotSplit(const ChunkNode& node) const {
         const bool isLeaf = node.childrenState == ChildrenState::None;
         if (isLeaf && node.id.level < deepestLevelOf(facts_.tree.shape)) return WhyNotSplit::SourceLimit;
-        if (switchDistanceM(node) <= distanceOf(node)) return WhyNotSplit::GoodEnough;
+        if (limitOf(node) != RegionLimit::Least && isWithinTau(node)) return WhyNotSplit::GoodEnough;
         if (isLeaf) return WhyNotSplit::Leaf;
         if (node.id.level >= facts_.lod.maxLevel) return WhyNotSplit::LevelLimit;
+        if (limitOf(node) == RegionLimit::Most) return WhyNotSplit::RegionLimit;
         switch (node.childrenState) {
             case ChildrenState::Resident:
                 return splitWaits(node) ? WhyNotSplit::WaitingForMorph : WhyNotSplit::SeamLimit;

@@ -27,10 +27,11 @@ enum class ChunkState : std::uint8_t {
 enum class WhyNotSplit : std::uint8_t {
     IsSplit,
     NotDrawn,     // there is nothing to split
-    GoodEnough,   // ε <= τ
+    GoodEnough,   // ε <= τ times the factor of the regions there
     SourceLimit,  // a leaf above the deepest level: no source is finer here
     Leaf,
     LevelLimit,       // LodSettings::maxLevel
+    RegionLimit,      // the largest level of a region
     WaitingForMorph,  // it must first slide back to its own surface
     SeamLimit,        // a neighbour would be too coarse for stitched seams
     WaitingInQueue,   // its children are queued
@@ -50,6 +51,7 @@ struct ChunkExplanation {
     // Why decidedBy is not split, if it is drawn; or whether it waits in the queue or for its read.
     WhyNotSplit decidedByNotSplit = WhyNotSplit::NotDrawn;
     double decidedByEpsPx = 0;  // of decidedBy; 0 if it is not resident
+    double decidedByTauPx = 0;  // τ times the factor there
     NodeIndex node = noNode;    // of this chunk, if it is resident
     // The following members are valid if the chunk is resident.
     float deltaGM = 0;  // metres; exact with resident children and unexaggerated heights, else a bound
@@ -59,6 +61,7 @@ struct ChunkExplanation {
     double distanceM = 0;   // from the LOD view's eye to its bounds
     double epsPx = 0;
     double switchDistanceM = 0;  // d_m: at a smaller distance its children must replace it
+    ChunkDemand demand;          // of the regions; tauPx times its factor is the tolerance here
     float morph = 0;
     bool mergeWaits =
         false;  // the chunk is split and no longer needs it, but its children still slide onto it
@@ -66,8 +69,12 @@ struct ChunkExplanation {
     // ancestor, or else its children; nothing if there is no such request.
     std::optional<std::size_t> queuePlace;
     std::size_t queueLength = 0;
-    double tauPx = 0;
-    ErrorMetric metric = ErrorMetric::Additive;
+    double tauPx = 0;                            // of the settings
+    ErrorMetric metric = ErrorMetric::Additive;  // of this chunk, or of the settings if it is not resident
+    // The regions that touch this chunk, or else decidedBy if only that is resident, and what they do there.
+    std::vector<RegionEffect> regions;
+
+    double regionTauPx() const { return tauPx * static_cast<double>(demand.tauFactor); }
 };
 
 // The results of a planet's last step.

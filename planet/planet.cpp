@@ -297,6 +297,18 @@ void Planet::setExaggeration(double factor) {
     state_->changed = true;
 }
 
+Result<void> Planet::setRegions(std::vector<Region> regions) {
+    ChunkTree& tree = state_->heights.tree;
+    if (tree.regions ? tree.regions->regions() == regions : regions.empty()) return {};
+    std::shared_ptr<const RegionSet> set;
+    if (!regions.empty()) {
+        TRY_ASSIGN(set, RegionSet::make(std::move(regions), tree.storedShape));
+    }
+    planet::setRegions(tree, std::move(set));
+    state_->changed = true;
+    return {};
+}
+
 void Planet::uploadAll(const UploadChunk& upload) const {
     forEachNode(tree(), [&](NodeIndex, const ChunkNode& node) { upload(node.slot, *node.heights); });
 }

@@ -81,6 +81,10 @@ public:
     // change at once, the selection at the next step. Pass tree().shape to the renderer. Slots do not change.
     void setExaggeration(double factor);
 
+    // Sets the regions (region.h); none for an empty list. Bounds and heights stay, so only the selection changes, at the
+    // next step. The Error is that of checkRegions; then nothing has changed. tree().regions holds them.
+    Result<void> setRegions(std::vector<Region> regions);
+
     // Uploads every resident chunk, for a new renderer.
     void uploadAll(const UploadChunk& upload) const;
 

@@ -6,6 +6,7 @@
 #include "planet/base/parallel.h"
 #include "planet/base/percentile.h"
 #include "planet/base/stopwatch.h"
+#include "planet/select/screen_error.h"
 
 namespace planet {
 
@@ -40,7 +41,7 @@ const std::uint32_t* drawnOver(const ChunkTable& places, const ChunkId& id) {
 // Returns whether a chunk needs children that are not resident.
 bool isWaiting(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
     return children != ChildrenState::None && children != ChildrenState::Resident &&
-           item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
+           isTooCoarse(item, settings);
 }
 
 bool isStitched(const LodSettings& settings) {
@@ -49,8 +50,7 @@ bool isStitched(const LodSettings& settings) {
 
 // Returns whether a chunk needs its resident children and is drawn nevertheless, because of a stitched seam.
 bool isHeldBack(const DrawItem& item, ChildrenState children, const LodSettings& settings) {
-    return isStitched(settings) && children == ChildrenState::Resident &&
-           item.id.level<settings.maxLevel&& static_cast<double>(item.epsPx)> settings.tauPx;
+    return isStitched(settings) && children == ChildrenState::Resident && isTooCoarse(item, settings);
 }
 
 // Returns whether two settings choose the same levels for one camera. Morphs and skirts do not change levels.
@@ -113,6 +113,7 @@ PopMeter::Frame PopMeter::keep(const ChunkTree& tree, const Selection& selection
     frame.view = view;
     frame.settings = settings;
     frame.exaggeration = tree.exaggeration;
+    frame.regions = tree.regions;
     return frame;
 }
 
@@ -247,7 +248,7 @@ bool PopMeter::neighbourCameOrWent(const Frame& now, const ChunkId& chunk) const
 PopCause PopMeter::cameraOrSettings(const Frame& now) const {
     const bool same =
         !before_ || (chooseAlike(before_->settings, now.settings) && projectAlike(before_->view, now.view) &&
-                     before_->exaggeration == now.exaggeration);
+                     before_->exaggeration == now.exaggeration && before_->regions == now.regions);
     return same ? PopCause::CameraMoved : PopCause::SettingsChanged;
 }
 
@@ -267,7 +268,8 @@ PopMeter::Why PopMeter::whyOf(const Frame& now, const Switch& change) const {
         return {culling ? PopCause::Culling : PopCause::SeamLimit, jumped};
     }
     // With resident children, hysteresis would have kept it split.
-    const double leastPx = coarse.settings.tauPx * (1 - coarse.settings.hysteresis);
+    const double leastPx = coarse.settings.tauPx * static_cast<double>(coarser.item.tauFactor) *
+                           (1 - coarse.settings.hysteresis);
     if (change.merged && coarser.children != ChildrenState::Resident &&
         static_cast<double>(coarser.item.epsPx) > leastPx)
         return {PopCause::Evicted, jumped};

@@ -160,6 +160,7 @@ private:
         View view;
         LodSettings settings;
         double exaggeration = 1;
+        std::shared_ptr<const RegionSet> regions;
         PopConditions conditions;
         std::shared_ptr<const DrawnFrame> drawn;
     };

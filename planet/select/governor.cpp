@@ -317,7 +317,8 @@ double nextX(double x, double merging, const Demands& demands, const GovernorSta
 double exponentOf(const Selection& selection, double tauPx) {
     const auto merges =
         std::count_if(selection.draw.begin(), selection.draw.end(), [&](const DrawItem& item) {
-            return item.id.level > 0 && static_cast<double>(item.parentEpsPx) <= 2 * tauPx;
+            return item.id.level > 0 &&
+                   static_cast<double>(item.parentEpsPx) <= 2 * tauPx * static_cast<double>(item.tauFactor);
         });
     if (selection.draw.empty()) return 0;
     const auto drawn = static_cast<double>(selection.draw.size());

@@ -58,6 +58,8 @@ struct Frame {
 struct Above {
     double epsPx = 0;        // 0 for a root
     double deltaM = 0;       // by the metric, metres
+    double tauFactor = 1;    // of its regions
+    bool mustSplit = false;  // a region's least level demands the node, whatever the parent's error
     bool justSplit = false;  // drawn in the previous frame, so the node starts on its surface
     bool merging = false;    // it, or an ancestor, waits to replace its children
 };
@@ -67,6 +69,8 @@ struct Seen {
     NodeIndex index = noNode;
     double deltaM = 0;  // by the metric, metres
     double distanceM = 0;
+    double tauFactor = 1;  // of its regions
+    RegionLimit limit = RegionLimit::None;
 };
 
 // Returns the natural morph: 1 if the parent is about to replace the chunk, 0 if it is far from that.
@@ -76,13 +80,17 @@ struct Seen {
 // box contains the chunk's; otherwise the ratio of the two ε is smaller. Without hysteresis, a ratio of 1
 // leaves no range and needs none, because the two surfaces are equal. With hysteresis, a short range would
 // itself be a pop, so at least a quarter of it is kept.
-double naturalMorph(const LodSettings& settings, const Above& above, double deltaM, double epsPx) {
-    if (!settings.morph || above.epsPx == 0) return 0;
-    const double overTau = above.epsPx / settings.tauPx;
+//
+// Regions change nothing of this: a chunk's factor on τ is never less than its parent's, so δ / factor takes the place of
+// δ. A parent that a least level splits is never about to replace its children.
+double naturalMorph(const LodSettings& settings, const Above& above, const Seen& seen, double epsPx) {
+    if (!settings.morph || above.epsPx == 0 || above.mustSplit) return 0;
+    const double overTau = above.epsPx / (settings.tauPx * above.tauFactor);
     if (overTau <= 1) return 1;
     double range = settings.morphRange;
     if (epsPx > 0) {
-        const double ratio = std::min(above.deltaM / deltaM, above.epsPx / epsPx);
+        const double ratio =
+            std::min(above.deltaM / seen.deltaM, above.epsPx / epsPx) * (seen.tauFactor / above.tauFactor);
         range = std::min(range, std::max(ratio * (1 - settings.hysteresis) - 1, (ratio - 1) / 4));
     }
     return range > 0 ? std::max(0.0, (1 + range - overTau) / range) : 0;
@@ -128,7 +136,7 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     Selection& out = walk.out;
     const ChunkNode& node = frame.tree.nodes[seen.index];
     const double epsPx = seen.deltaM * frame.scalePx / seen.distanceM;
-    const double natural = naturalMorph(frame.settings, above, seen.deltaM, epsPx);
+    const double natural = naturalMorph(frame.settings, above, seen, epsPx);
     const float target = above.merging ? 1 : splitWaits ? 0 : static_cast<float>(natural);
     DrawItem item;
     item.node = seen.index;
@@ -139,6 +147,8 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     item.distanceM = static_cast<float>(seen.distanceM);
     item.deltaCM = static_cast<float>(seen.deltaM);
     item.parentDeltaM = static_cast<float>(above.deltaM);
+    item.tauFactor = static_cast<float>(seen.tauFactor);
+    item.limit = seen.limit;
     const Shown* const last = frame.before.find(node.id);
     item.morph = fadedMorph(frame.before, node.id, last, above, target);
     item.splitWaits = splitWaits;
@@ -157,7 +167,7 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
 // nothing is requested for it.
 bool staysSplit(const Frame& frame, const ChunkNode& node, const Seen& seen) {
     return frame.settings.hysteresis > 0 && node.childrenState == ChildrenState::Resident &&
-           seen.deltaM * frame.mergeReach > seen.distanceM && frame.before.wasSplit(node.id);
+           seen.deltaM * frame.mergeReach > seen.distanceM * seen.tauFactor && frame.before.wasSplit(node.id);
 }
 
 // Returns whether the node should be drawn as its children.
@@ -165,7 +175,8 @@ bool wantsSplit(const Frame& frame, const Seen& seen, const Above& above) {
     const ChunkNode& node = frame.tree.nodes[seen.index];
     if (node.childrenState == ChildrenState::None || node.id.level >= frame.settings.maxLevel) return false;
     if (above.merging || (!frame.seamLimit.empty() && frame.seamLimit.contains(seen.index))) return false;
-    return seen.deltaM * frame.reach > seen.distanceM || staysSplit(frame, node, seen);
+    if (seen.limit != RegionLimit::None) return seen.limit == RegionLimit::Least;
+    return seen.deltaM * frame.reach > seen.distanceM * seen.tauFactor || staysSplit(frame, node, seen);
 }
 
 bool edgeShowed(const Memory& before, const ChunkId& id, const ChunkId& towards, float morph) {
@@ -238,6 +249,12 @@ void prefetch(const ChunkNode* nodes, std::size_t count) {
     }
 }
 
+float priorityOf(const Frame& frame, const Seen& seen) {
+    if (seen.limit == RegionLimit::Most) return 0;
+    const auto overTau = static_cast<float>(seen.deltaM * frame.reach / (seen.distanceM * seen.tauFactor));
+    return seen.limit == RegionLimit::Least ? std::max(overTau, leastLevelPriority) : overTau;
+}
+
 void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& above, Walk& walk) {
     const ChunkNode& node = frame.tree.nodes[index];
     Selection& out = walk.out;
@@ -252,12 +269,12 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
         ++(culled == Culled::ByFrustum ? out.counters.culledFrustum : out.counters.culledHorizon);
         return;
     }
-    const Seen seen{index, deltaOf(node, frame.settings.metric), distanceToM(node, frame.eyeM)};
+    const Seen seen{index, deltaOf(node, frame.settings.metric), distanceToM(node, frame.eyeM),
+                    static_cast<double>(node.demand.tauFactor), limitOf(node)};
     const bool wantsToSplit = wantsSplit(frame, seen, above);
     const bool merging = !wantsToSplit && mergeMustWait(frame, index);
     if (!wantsToSplit && !merging) return draw(frame, seen, above, false, place, walk);
-    const ChildrenRequest wanted{index, node.id,
-                                 static_cast<float>(seen.deltaM * frame.reach / seen.distanceM)};
+    const ChildrenRequest wanted{index, node.id, priorityOf(frame, seen)};
     if (node.childrenState != ChildrenState::Resident) {
         draw(frame, seen, above, false, place, walk);
         ++out.counters.waiting;
@@ -272,8 +289,12 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
     walk.indexOf[place] = static_cast<std::uint32_t>(split);
     walk.children.emplace_back();
     out.splits.push_back(wanted);
-    const Above here{seen.deltaM * frame.scalePx / seen.distanceM, seen.deltaM,
-                     frame.before.find(node.id) != nullptr, merging};
+    const Above here{seen.deltaM * frame.scalePx / seen.distanceM,
+                     seen.deltaM,
+                     seen.tauFactor,
+                     seen.limit == RegionLimit::Least,
+                     frame.before.find(node.id) != nullptr,
+                     merging};
     for (NodeIndex q = 0; q < quadrantCount; ++q) {
         walk.children[split][q] = static_cast<std::uint32_t>(out.touched.size());
         visit(frame, node.firstChild + q, open, here, walk);
@@ -536,7 +557,10 @@ private:
         // Without morph, an item's bound is its ε.
         for (DrawItem& item : out_.draw)
             if (settings_.morph) item.nearestSampleM = nearestSampleOf(item);
-        fillDrawnBounds(out_.draw, neighbours, walk_.cellSpanM, frame_.scalePx, settings_.metric,
+        // The bound of the tight metric holds for a mixture of both too.
+        const bool isMixed = frame_.tree.regions && frame_.tree.regions->choosesMetrics();
+        fillDrawnBounds(out_.draw, neighbours, walk_.cellSpanM, frame_.scalePx,
+                        isMixed ? ErrorMetric::Tight : settings_.metric,
                         settings_.seams == SeamMode::Stitched);
         for (const DrawItem& item : out_.draw)
             out_.counters.worstDrawnBoundPx = std::max(out_.counters.worstDrawnBoundPx, item.drawnBoundPx);

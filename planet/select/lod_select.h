@@ -4,6 +4,10 @@
 // are resident. Until then it is drawn itself and its children are requested. So the drawn chunks cover the
 // visible planet exactly once, without holes or overlaps.
 //
+// The planet's regions (region.h) change τ, limit levels and choose the metric of each node (ChunkNode::demand). Demands
+// never grow stricter from parent to child, just as δc never grows, so all that is said here of τ holds for τ times the
+// node's factor. A chunk below a region's least level counts as one whose ε exceeds any τ.
+//
 // A pure function of its arguments, without GL, I/O or a clock: the same input gives the same result. Any
 // thread.
 //

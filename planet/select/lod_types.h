@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planet/sphere/chunk_id.h"
+#include "planet/tree/error_metric.h"
 #include "planet/tree/node_index.h"
 
 namespace planet {
@@ -13,17 +14,12 @@ namespace planet {
 enum class SeamMode : std::uint8_t { None, Skirts, Stitched };
 enum class SkirtDepth : std::uint8_t { Automatic, Fixed };
 
-// The error bound of a chunk. Additive: δc, a sum over the levels below; conservative. Tight: the largest
-// measured distance of the surfaces of the chunk and its descendants from the finest data; fewer triangles
-// for the same τ.
-enum class ErrorMetric : std::uint8_t { Additive, Tight };
-
 struct LodSettings {
     ErrorMetric metric = ErrorMetric::Additive;
     double tauPx = 2;  // tolerance τ, pixels, > 0; larger: fewer triangles, more visible error
     // A split chunk stays split until ε <= τ (1 - hysteresis); [0, 0.9]. Larger: fewer flips, more triangles.
     double hysteresis = 0.1;
-    int maxLevel = planet::maxLevel;  // chunks of this level are not split; [0, maxLevel]
+    int maxLevel = planet::maxLevel;  // chunks of this level are not split, in regions too; [0, maxLevel]
     bool frustumCulling = true;       // off: chunks outside the frustum are drawn and loaded too
     bool horizonCulling = true;       // off: chunks below the horizon are drawn and loaded too
     bool morph = true;                // off: chunks pop when their level changes
@@ -44,6 +40,13 @@ struct LodSettings {
     bool operator==(const LodSettings&) const = default;
 };
 
+// What a region's levels do to a drawn chunk, whatever its error.
+enum class RegionLimit : std::uint8_t {
+    None,
+    Least,  // its level is below the least one, so its children are wanted
+    Most,   // its level is the largest one
+};
+
 struct DrawItem {
     NodeIndex node = noNode;
     ChunkId id;
@@ -57,9 +60,12 @@ struct DrawItem {
     float parentDeltaM = 0;    // of the parent; 0 for a root
     float skirtDepthM = 0;     // metres, towards the planet's centre; 0 unless seams are Skirts
     float morph = 0;           // [0, 1]: 0 own surface, 1 the parent's
-    bool splitWaits = false;   // its split waits until it has been drawn with just its own surface
+    // The factor on τ there, of the planet's regions (region.h): the chunk is good enough while ε <= τ tauFactor.
+    float tauFactor = 1;
+    bool splitWaits = false;  // its split waits until it has been drawn with just its own surface
     // The merge of an ancestor waits until all chunks below it show its surface.
     bool mergeWaits = false;
+    RegionLimit limit = RegionLimit::None;
     // The levels by which the drawn neighbour is coarser, by edge, west to north; 0 if it is not coarser.
     std::array<std::uint8_t, edgeCount> coarserBy{};
     // In a sparse planet, beside a coarser neighbour, by edge: the error of this chunk's ancestor of that
@@ -90,11 +96,16 @@ struct VisitedNode {
     bool operator==(const VisitedNode&) const = default;
 };
 
+// Above what a chunk at the tolerance has: a region's least level counts as an error of twice that.
+inline constexpr float leastLevelPriority = 2;
+
 // A request to draw a node as its children.
 struct ChildrenRequest {
     NodeIndex parent = noNode;
     ChunkId parentId;
-    float priority = 0;  // ε / τ of the parent: by how much it exceeds the tolerance; larger first
+    // ε / τ of the parent: by how much it exceeds the tolerance; larger first. In a region, τ is that of the region, and
+    // below its least level the priority is at least leastLevelPriority.
+    float priority = 0;
 };
 
 struct SelectionCounters {

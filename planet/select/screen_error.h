@@ -14,9 +14,23 @@ namespace planet {
 // The smallest distance D, metres. It keeps the error of a chunk that contains the eye finite.
 inline constexpr double nearestM = 1e-3;
 
-// Returns a node's error bound by either metric, metres.
-inline float deltaOf(const ChunkNode& node, ErrorMetric metric) {
-    return metric == ErrorMetric::Tight ? node.deltaTightM : node.deltaCM;
+// Returns a node's error bound, metres, by the metric that the settings choose, or the regions there.
+inline float deltaOf(const ChunkNode& node, ErrorMetric set) {
+    return metricBy(node.demand.metric, set) == ErrorMetric::Tight ? node.deltaTightM : node.deltaCM;
+}
+
+// Returns what the levels of the regions there do to a node.
+inline RegionLimit limitOf(const ChunkNode& node) {
+    if (node.id.level < node.demand.leastLevel) return RegionLimit::Least;
+    return node.id.level >= node.demand.mostLevel ? RegionLimit::Most : RegionLimit::None;
+}
+
+// Returns whether a drawn chunk is too coarse for the settings and the regions there, so that its children are wanted if
+// it has any.
+inline bool isTooCoarse(const DrawItem& item, const LodSettings& settings) {
+    if (item.id.level >= settings.maxLevel || item.limit == RegionLimit::Most) return false;
+    return item.limit == RegionLimit::Least ||
+           static_cast<double>(item.epsPx) > settings.tauPx * static_cast<double>(item.tauFactor);
 }
 
 // Returns the distance from an eye to a node's bounds, metres, at least nearestM.

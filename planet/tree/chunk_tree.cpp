@@ -87,6 +87,34 @@ void setMeasures(const ChunkTree& tree, ChunkNode& node) {
     node.deltaTightM = std::min(tightM, node.deltaCM);
 }
 
+// Returns the part of the ground that a node draws. Heights are those baked.
+GroundArea groundOf(const ChunkTree& tree, const ChunkNode& node) {
+    return {node.bounds.cone, heightM(tree.storedShape, node.minStep),
+            heightM(tree.storedShape, node.maxStep)};
+}
+
+// Sets the demands of a node's resident children and of everything below them. parts: those in the node.
+void setDemandsBelow(ChunkTree& tree, NodeIndex parent, const RegionSet::Parts& parts) {
+    if (tree.nodes[parent].childrenState != ChildrenState::Resident) return;
+    for (NodeIndex q = 0; q < quadrantCount; ++q) {
+        const NodeIndex index = tree.nodes[parent].firstChild + q;
+        ChunkNode& node = tree.nodes[index];
+        const GroundArea ground = groundOf(tree, node);
+        node.demand = withinParent(tree.regions->demandIn(ground, parts), tree.nodes[parent].demand);
+        setDemandsBelow(tree, index, tree.regions->partsIn(ground, parts));
+    }
+}
+
+// Returns the parts of the regions that matter in a node, narrowed along its ancestors.
+RegionSet::Parts partsAt(const ChunkTree& tree, NodeIndex node) {
+    std::vector<NodeIndex> path;
+    for (NodeIndex at = node; at != noNode; at = tree.nodes[at].parent) path.push_back(at);
+    RegionSet::Parts parts = tree.regions->allParts();
+    for (auto at = path.rbegin(); at != path.rend() && !parts.empty(); ++at)
+        parts = tree.regions->partsIn(groundOf(tree, tree.nodes[*at]), parts);
+    return parts;
+}
+
 void setOccluder(ChunkTree& tree) {
     const double lowestM = tree.shape.radiusM + heightM(tree.shape, tree.minStep);
     tree.occluderRadiusM = radiusInsideTriangles(lowestM, chunkCells(tree.shape));
@@ -200,6 +228,25 @@ void setExaggeration(ChunkTree& tree, double factor) {
     forEachNode(tree, [&](NodeIndex index, const ChunkNode&) { setMeasures(tree, tree.nodes[index]); });
 }
 
+void setRegions(ChunkTree& tree, std::shared_ptr<const RegionSet> regions) {
+    tree.regions = std::move(regions);
+    if (!tree.regions) {
+        forEachNode(tree, [&](NodeIndex index, const ChunkNode&) { tree.nodes[index].demand = {}; });
+        return;
+    }
+    for (NodeIndex root = 0; root < faceCount; ++root) {
+        ChunkNode& node = tree.nodes[root];
+        const GroundArea ground = groundOf(tree, node);
+        node.demand = tree.regions->demandIn(ground, tree.regions->allParts());
+        setDemandsBelow(tree, root, tree.regions->partsIn(ground, tree.regions->allParts()));
+    }
+}
+
+std::vector<RegionEffect> regionEffects(const ChunkTree& tree, NodeIndex node) {
+    if (!tree.regions) return {};
+    return tree.regions->effectsIn(groundOf(tree, tree.nodes[node]), partsAt(tree, node));
+}
+
 double largestExaggeration(const ChunkTree& tree) {
     constexpr double most = 100;
     constexpr double deepest = 0.99;  // of the radius
@@ -242,6 +289,7 @@ NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, q
     }
     tree.nodes[parent].firstChild = first;
     changeState(tree.nodes[parent].childrenState, ChildrenState::Resident);
+    if (tree.regions) setDemandsBelow(tree, parent, partsAt(tree, parent));
     tree.residentChunks += quadrantCount;
     return first;
 }

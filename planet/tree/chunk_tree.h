@@ -25,7 +25,9 @@
 #include "planet/format/chunk_file_types.h"
 #include "planet/sphere/bounds.h"
 #include "planet/tree/block_state.h"
+#include "planet/tree/chunk_demand.h"
 #include "planet/tree/node_index.h"
+#include "planet/tree/region_set.h"
 
 namespace planet {
 
@@ -44,6 +46,7 @@ struct ChunkNode {
     std::uint32_t slot = 0;         // in the pool of heights
     std::uint32_t loadOrder = 0;  // 0 for the roots, then 1 for the first block, 2, ...; here it fills a gap
     ChildrenState childrenState = ChildrenState::None;
+    ChunkDemand demand;  // of the tree's regions
     ChunkBounds bounds;
     float storedDeltaCM = 0;      // as in the file
     float storedDeltaTightM = 0;  // as in the file
@@ -63,8 +66,9 @@ struct ChunkTree {
     double exaggeration = 1;   // factor on all heights
     std::int32_t minStep = 0;  // over the whole planet
     std::int32_t maxStep = 0;
-    std::uint64_t allChunks = 0;        // of the planet, resident or not
-    double occluderRadiusM = 0;         // of a sphere inside every surface the tree can draw
+    std::uint64_t allChunks = 0;               // of the planet, resident or not
+    double occluderRadiusM = 0;                // of a sphere inside every surface the tree can draw
+    std::shared_ptr<const RegionSet> regions;  // null without regions
     std::vector<ChunkNode> nodes;       // first the six roots, in face order; the rest free or in fours
     std::vector<NodeIndex> freeGroups;  // first nodes of free groups of four
     std::size_t residentChunks = 0;
@@ -88,6 +92,12 @@ void setExaggeration(ChunkTree& tree, double factor);
 // Returns 100, or less if that would bring the lowest ground closer to the planet's centre than 1 % of its
 // radius; at least 1.
 double largestExaggeration(const ChunkTree& tree);
+
+// Sets the regions, which must be made for tree.storedShape, or null for none: updates the demands of all nodes. Applies to
+// nodes added later too.
+void setRegions(ChunkTree& tree, std::shared_ptr<const RegionSet> regions);
+// Returns what the regions that touch a node do there, in their order.
+std::vector<RegionEffect> regionEffects(const ChunkTree& tree, NodeIndex node);
 
 // Returns an upper bound of A_l, metres: the largest distance on the bare sphere between a vertex that a
 // level lacks and the middle of the edge or diagonal that replaces it.

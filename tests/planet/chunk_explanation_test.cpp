@@ -121,6 +121,41 @@ TEST(ChunkExplanation, OfLeavesAndOfTheLargestLevel) {
     EXPECT_EQ(scene.explain(bottom).decidedBy, (ChunkId{Face::NegY, 2, 1, 2}));
 }
 
+TEST(ChunkExplanation, NamesTheRegionsOfAChunkAndWhatTheyDecide) {
+    Scene scene(4);
+    const double epsPx = scene.epsPx(childId);
+    const auto regions = [&](std::vector<Region> list) {
+        setRegions(scene.tree, RegionSet::make(std::move(list), scene.tree.storedShape).value());
+        scene.select();
+        return scene.explain(childId);
+    };
+    // Between its error and half of it.
+    scene.lod.tauPx = 1.5 * epsPx;
+    EXPECT_EQ(regions({}).regions.size(), 0u);
+    EXPECT_NE(scene.explain(childId).state, ChunkState::Split);
+    const RegionCircle everywhere{{0, 0}, 1e9};
+    const ChunkExplanation finer = regions({{.name = "fine", .circles = {everywhere}, .tauFactor = 0.5}});
+    EXPECT_EQ(finer.state, ChunkState::Split);
+    ASSERT_EQ(finer.regions.size(), 1u);
+    EXPECT_EQ(finer.regions[0].name, "fine");
+    EXPECT_TRUE(finer.regions[0].setsTauFactor);
+    EXPECT_EQ(finer.regionTauPx(), 0.75 * epsPx);
+    EXPECT_EQ(finer.tauPx, scene.lod.tauPx);
+    const ChunkExplanation least = regions({{.name = "least", .circles = {everywhere}, .leastLevel = 3}});
+    EXPECT_EQ(least.state, ChunkState::Split);
+    EXPECT_TRUE(least.regions[0].setsLeastLevel);
+    EXPECT_EQ(scene.explain({Face::PosX, 3, 4, 2}).state, ChunkState::Drawn);
+    scene.lod.tauPx = 1e-9;
+    const ChunkExplanation most = regions({{.name = "most", .circles = {everywhere}, .mostLevel = 1}});
+    EXPECT_EQ(most.state, ChunkState::Drawn);
+    EXPECT_EQ(most.notSplit, WhyNotSplit::RegionLimit);
+    EXPECT_TRUE(most.regions[0].setsMostLevel);
+    const ChunkExplanation tight =
+        regions({{.name = "tight", .circles = {everywhere}, .metric = ErrorMetric::Tight}});
+    EXPECT_EQ(tight.metric, ErrorMetric::Tight);
+    EXPECT_TRUE(tight.regions[0].setsMetric);
+}
+
 TEST(ChunkExplanation, OfCulledChunksNamesTheOneThatWasCulled) {
     Scene scene(4);
     scene.lod.tauPx = 1e-9;

@@ -1,6 +1,10 @@
 #include "ui/model/explanation_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
 
 #include "planet/sphere/chunk_id.h"
 #include "ui/model/font_symbols.h"
@@ -19,10 +23,34 @@ std::string pixels(double px, double besidePx) {
     return close ? fmt::format("{:.4g} px", px) : fmt::format("{:.1f} px", px);
 }
 
-// Returns for example "eps 3.1 px > tau 2.0 px".
+// Returns the first region that decides something, in quotation marks.
+template <class Decides>
+std::string regionThat(const ChunkExplanation& chunk, Decides decides) {
+    const auto found = std::find_if(chunk.regions.begin(), chunk.regions.end(), decides);
+    return found == chunk.regions.end() ? "a region" : fmt::format("region \"{}\"", found->name);
+}
+
+std::string tauRegion(const ChunkExplanation& chunk) {
+    return regionThat(chunk, [](const planet::RegionEffect& effect) { return effect.setsTauFactor; });
+}
+std::string leastRegion(const ChunkExplanation& chunk) {
+    return regionThat(chunk, [](const planet::RegionEffect& effect) { return effect.setsLeastLevel; });
+}
+std::string mostRegion(const ChunkExplanation& chunk) {
+    return regionThat(chunk, [](const planet::RegionEffect& effect) { return effect.setsMostLevel; });
+}
+
+// Returns for example "eps 3.1 px > tau 2.0 px", or "eps 3.1 px > tau 1.0 px (x 0.5 in region "Valley")".
 std::string comparison(const ChunkExplanation& chunk, const char* how) {
-    return fmt::format("{} {} {} {} {}", epsSymbol(), pixels(chunk.epsPx, chunk.tauPx), how, tauSymbol(),
-                       pixels(chunk.tauPx, chunk.epsPx));
+    const double tauPx = chunk.regionTauPx();
+    const std::string text = fmt::format("{} {} {} {} {}", epsSymbol(), pixels(chunk.epsPx, tauPx), how,
+                                         tauSymbol(), pixels(tauPx, chunk.epsPx));
+    if (chunk.demand.tauFactor == 1) return text;
+    return fmt::format("{} (x {:.3g} in {})", text, chunk.demand.tauFactor, tauRegion(chunk));
+}
+
+bool mustSplit(const ChunkExplanation& chunk) {
+    return chunk.id.level < chunk.demand.leastLevel;
 }
 
 // Returns for example "14th of 60 in the queue".
@@ -40,16 +68,25 @@ std::string gridPlaceText(const ChunkExplanation& chunk) {
 
 std::string drawnText(const ChunkExplanation& chunk) {
     const auto wanted = [&](const std::string& why) {
-        return fmt::format("Should split: {}; {}.", comparison(chunk, ">"), why);
+        if (!mustSplit(chunk)) return fmt::format("Should split: {}; {}.", comparison(chunk, ">"), why);
+        return fmt::format("Should split: {} wants level {} or finer; {}.", leastRegion(chunk),
+                           chunk.demand.leastLevel, why);
     };
     switch (chunk.notSplit) {
         case WhyNotSplit::SourceLimit:
             return fmt::format("Drawn: it is a leaf; no source is finer here than level {}.", chunk.id.level);
         case WhyNotSplit::Leaf:
+            if (mustSplit(chunk)) {
+                return fmt::format("Drawn: {} wants level {} or finer, but the file has no finer level here.",
+                                   leastRegion(chunk), chunk.demand.leastLevel);
+            }
             return fmt::format("Drawn: {}, but the file has no finer level here.", comparison(chunk, ">"));
         case WhyNotSplit::LevelLimit:
             return fmt::format("Drawn: {}, but level {} is the max LOD level.", comparison(chunk, ">"),
                                chunk.id.level);
+        case WhyNotSplit::RegionLimit:
+            return fmt::format("Drawn: {}, but {} has no level finer than {}.", comparison(chunk, ">"),
+                               mostRegion(chunk), chunk.demand.mostLevel);
         case WhyNotSplit::WaitingForMorph:
             return wanted("it first morphs back to its own surface");
         case WhyNotSplit::SeamLimit:
@@ -74,7 +111,11 @@ std::string drawnText(const ChunkExplanation& chunk) {
 
 std::string splitText(const ChunkExplanation& chunk) {
     if (chunk.mergeWaits) return "Split: it merges when its children have morphed onto it.";
-    if (chunk.epsPx > chunk.tauPx) {
+    if (mustSplit(chunk)) {
+        return fmt::format("Split: {} wants level {} or finer, so its descendants are drawn instead.",
+                           leastRegion(chunk), chunk.demand.leastLevel);
+    }
+    if (chunk.epsPx > chunk.regionTauPx()) {
         return fmt::format("Split: {}, so its descendants are drawn instead.", comparison(chunk, ">"));
     }
     return fmt::format("Split: {}, but hysteresis keeps it split.", comparison(chunk, "is within"));
@@ -86,10 +127,12 @@ std::string insteadText(const ChunkExplanation& chunk) {
     switch (chunk.decidedByNotSplit) {
         case WhyNotSplit::GoodEnough:
             return fmt::format("{} is within the tolerance ({} {}).", above, epsSymbol(),
-                               pixels(chunk.decidedByEpsPx, chunk.tauPx));
+                               pixels(chunk.decidedByEpsPx, chunk.decidedByTauPx));
         case WhyNotSplit::LevelLimit:
             return fmt::format("{} is drawn, and level {} is the max LOD level.", above,
                                chunk.decidedBy.level);
+        case WhyNotSplit::RegionLimit:
+            return fmt::format("{} is drawn, and {} has no finer level.", above, mostRegion(chunk));
         case WhyNotSplit::WaitingForMorph:
             return above + " is drawn until it has morphed back to its own surface.";
         case WhyNotSplit::SeamLimit:
@@ -146,6 +189,20 @@ std::string whyText(const ChunkExplanation& chunk) {
             break;
     }
     return fmt::format("No such chunk: its ancestor {} is a leaf.", toString(chunk.decidedBy));
+}
+
+std::string regionText(const planet::RegionEffect& effect, const planet::ChunkDemand& demand) {
+    std::vector<std::string> sets;
+    if (effect.setsTauFactor) sets.push_back(fmt::format("{} x {:.3g}", tauSymbol(), demand.tauFactor));
+    if (effect.setsLeastLevel) sets.push_back(fmt::format("level {} or finer", demand.leastLevel));
+    if (effect.setsMostLevel) sets.push_back(fmt::format("no level finer than {}", demand.mostLevel));
+    if (effect.setsMetric)
+        sets.push_back(demand.metric == planet::MetricRule::Tight ? "tight metric" : "additive metric");
+    const char* const where = effect.leastWeight >= 1  ? "all of it"
+                              : effect.mostWeight >= 1 ? "part of it"
+                                                       : "in its soft border";
+    return fmt::format("{}: {}", where,
+                       sets.empty() ? "a stricter demand decides" : fmt::format("{}", fmt::join(sets, ", ")));
 }
 
 const char* stateText(ChunkState state) {

@@ -47,6 +47,41 @@ ChunkExplanation below(ChunkState state, WhyNotSplit above, double aboveEpsPx) {
     return made;
 }
 
+TEST(ExplanationText, NamesTheRegionThatDecides) {
+    const auto why = [](WhyNotSplit notSplit, double epsPx, const planet::ChunkDemand& demand,
+                        const planet::RegionEffect& effect) {
+        ChunkExplanation made = chunk(ChunkState::Drawn, notSplit, epsPx);
+        made.demand = demand;
+        made.regions = {{.name = "Idle", .mostWeight = 1}, effect};
+        return whySpelled(made);
+    };
+    EXPECT_EQ(
+        why(WhyNotSplit::GoodEnough, 0.8, {.tauFactor = 0.5f}, {.name = "Valley", .setsTauFactor = true}),
+        "Drawn: eps 0.8 px is within tau 1.0 px (x 0.5 in region \"Valley\").");
+    EXPECT_EQ(why(WhyNotSplit::RegionLimit, 3.1, {.mostLevel = 5}, {.name = "Sea", .setsMostLevel = true}),
+              "Drawn: eps 3.1 px > tau 2.0 px, but region \"Sea\" has no level finer than 5.");
+    EXPECT_EQ(
+        why(WhyNotSplit::WaitingForRead, 0.1, {.leastLevel = 7}, {.name = "Town", .setsLeastLevel = true}),
+        "Should split: region \"Town\" wants level 7 or finer; its children are being read.");
+    EXPECT_EQ(why(WhyNotSplit::Leaf, 0, {.leastLevel = 7}, {.name = "Town", .setsLeastLevel = true}),
+              "Drawn: region \"Town\" wants level 7 or finer, but the file has no finer level here.");
+    ChunkExplanation split = chunk(ChunkState::Split, WhyNotSplit::IsSplit, 0.1);
+    split.demand.leastLevel = 7;
+    split.regions = {{.name = "Town", .setsLeastLevel = true}};
+    EXPECT_EQ(whySpelled(split),
+              "Split: region \"Town\" wants level 7 or finer, so its descendants are drawn instead.");
+}
+
+TEST(ExplanationText, SaysWhatARegionDoesInAChunk) {
+    const planet::ChunkDemand demand{0.5f, 6, 9, planet::MetricRule::Tight, 0};
+    EXPECT_EQ(
+        regionText({.leastWeight = 1, .mostWeight = 1, .setsLeastLevel = true, .setsMetric = true}, demand),
+        "all of it: level 6 or finer, tight metric");
+    EXPECT_EQ(regionText({.mostWeight = 1, .setsMostLevel = true}, demand),
+              "part of it: no level finer than 9");
+    EXPECT_EQ(regionText({.mostWeight = 0.5}, demand), "in its soft border: a stricter demand decides");
+}
+
 TEST(ExplanationText, OfDrawnChunksSaysWhyTheyAreNotSplit) {
     const auto drawn = [](WhyNotSplit why, double epsPx) {
         return whySpelled(chunk(ChunkState::Drawn, why, epsPx));

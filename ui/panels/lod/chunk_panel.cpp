@@ -145,16 +145,22 @@ void errorRows(const ChunkExplanation& explanation, const BudgetUse& budget) {
              "at the same position, or a child's if larger; 0 at a leaf. It never exceeds δc, which sums the "
              "largest errors of all levels.");
     valueRow("Metric", explanation.metric == planet::ErrorMetric::Tight ? "tight" : "additive",
-             "Metric used for ε, d_m and skirts (lod.metric).");
+             "Metric used for ε, d_m and skirts (lod.metric, or a region's).");
     valueRow("Distance", distanceText(explanation.distanceM),
              "D, the distance from the LOD view's camera to the chunk's bounds.");
-    const bool over = explanation.epsPx > explanation.tauPx;
+    const bool over = explanation.epsPx > explanation.regionTauPx();
     valueRow(epsSymbol(), pixelsText(explanation.epsPx),
              "Screen-space error ε = δc K' / D, K' = W / (2 tan(Hfov / 2)), W: viewport width in pixels. "
              "Above τ the chunk should be split.",
              over ? &palette().warning : nullptr);
-    valueRow(tauSymbol(), fmt::format("{:.3g} px", explanation.tauPx),
-             "Tolerance from the LOD panel: a chunk is fine enough while ε <= τ.");
+    valueRow(tauSymbol(), fmt::format("{:.3g} px", explanation.regionTauPx()),
+             "Tolerance from the LOD panel, times the factor of the regions here: a chunk is fine enough "
+             "while ε <= τ.");
+    for (const planet::RegionEffect& effect : explanation.regions) {
+        valueRow(effect.name.c_str(), regionText(effect, explanation.demand),
+                 "A region that touches the chunk (Regions panel). The strictest demand of any place in the "
+                 "chunk counts.");
+    }
     if (budget.isOn)
         valueRow(terms::budgetBinds.name, bindsText(budget, tauSymbol()), terms::budgetBinds.meaning);
     valueRow("d_m", distanceText(explanation.switchDistanceM),
