@@ -12,6 +12,7 @@ chunk_file     600   40000
 decoders       12000 20000
 settings       300   20000
 layer_set      4000  8000
+regions        4000  8000
 flight_path    12000 8000
 notes          8000  8000
 flight_record  2000  20000
@@ -32,7 +33,7 @@ run_one() {
     fi
     mkdir -p "$corpus"
     case $name in
-        settings | layer_set | flight_path | notes) words=-dict=tests/fuzz/toml.dict ;;
+        settings | layer_set | regions | flight_path | notes) words=-dict=tests/fuzz/toml.dict ;;
         *) words= ;;
     esac
     status=0

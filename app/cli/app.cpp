@@ -14,6 +14,7 @@
 #include "app/cli/shot_command.h"
 #include "app/data/bake_progress.h"
 #include "app/editor/editor.h"
+#include "app/settings/region_file.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/session_file.h"
 #include "app/settings/settings_text.h"
@@ -280,8 +281,15 @@ Result<void> writeFirstView(const AppOptions& options, const CheckedData& data, 
 
 int runApp(const AppOptions& options) {
     Log log;
-    const Result<OpenSettings> open = openSettings(options);
+    Result<OpenSettings> open = openSettings(options);
     if (!open) return reportError(open.error());
+    // The editor reads those beside the planet.
+    if (!options.regionsFile.empty()) {
+        Result<RegionSettings> regions = regionsFor(options.regionsFile, {});
+        if (!regions) return reportError(regions.error());
+        regions->on = open->settings.view.regions.on;
+        open->settings.view.regions = std::move(*regions);
+    }
     Resumed resumed = sessionToResume(options, open->settings);
     if (!open->problem.empty()) resumed.add(open->problem);
     const Result<CheckedData> data = dataToShow(options, open->settings, resumed);

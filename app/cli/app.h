@@ -9,6 +9,7 @@ struct AppOptions {
     std::filesystem::path file;          // empty: the settings' data set, or the Earth
     std::filesystem::path settingsFile;  // empty: the user's own
     std::filesystem::path shaderFolder;  // empty: the built-in shaders
+    std::filesystem::path regionsFile;   // empty: the one beside the planet, if there is one
     std::filesystem::path
         itemMapFile;  // for the positions of controls (ui/kit/item_map.h); empty: not written
 };

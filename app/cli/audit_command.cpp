@@ -231,6 +231,8 @@ Result<Audit> audit(const AuditOptions& options) {
     if (!opened) return tl::unexpected(opened.error());
     Planet& planet = **opened;
     planet.setExaggeration(options.view.surface.exaggeration);
+    if (const Result<void> set = planet.setRegions(options.view.regions.applied()); !set)
+        return tl::unexpected(set.error());
     const auto poses = posesOf(options, planet);
     if (!poses) return tl::unexpected(poses.error());
 

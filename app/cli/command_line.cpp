@@ -43,6 +43,7 @@
 #include "app/data/layer_materials.h"
 #include "app/data/worlds.h"
 #include "app/settings/camera_text.h"
+#include "app/settings/region_file.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/view_options.h"
 #include "planet/source/height_source.h"
@@ -521,6 +522,15 @@ Result<Settings> takeShared(const CommandSpec& spec, const SharedTexts& texts, O
     }
     Result<Settings> settings = settingsFrom(texts.view);
     if (!settings) return settings;
+    if constexpr (requires {
+                      options.view;
+                      options.file;
+                  }) {
+        Result<RegionSettings> regions = regionsFor(texts.view.regions, options.file);
+        if (!regions) return tl::unexpected(std::move(regions.error()));
+        regions->on = settings->view.regions.on;
+        settings->view.regions = std::move(*regions);
+    }
     if constexpr (requires { options.view; }) options.view = settings->view;
     if constexpr (requires { options.start; }) options.start = settings->camera;
     for (const std::string& text : texts.cameras) {
@@ -630,6 +640,11 @@ Result<void> finish(CompareOptions& options, const SharedTexts& shared, const Co
             if (const Result<void> set = setSetting(*settings, assignment); !set)
                 return planet::badInput(fmt::format("--set-{} {}", i == 0 ? 'a' : 'b', set.error().message));
         }
+        Result<RegionSettings> regions =
+            regionsFor(texts.regions, i == 0 || options.fileOfB.empty() ? options.file : options.fileOfB);
+        if (!regions) return tl::unexpected(std::move(regions.error()));
+        regions->on = settings->view.regions.on;
+        settings->view.regions = std::move(*regions);
         options.settings[i] = settings->view;
     }
     return {};
@@ -690,6 +705,9 @@ struct CommandLine {
                        "procedural terrain (noise:ridged) or "
                        "preset (preset:moon) to show");
         app.add_option("--settings", window.settingsFile, "Settings file to use instead of the user's");
+        app.add_option(
+            "--regions", window.regionsFile,
+            "Regions with detail of their own, .regions.toml (the file beside FILE, if there is one)");
         app.add_option("--shaders", window.shaderFolder,
                        "Folder to read the shaders from; changes are reloaded");
         app.add_option(

@@ -189,6 +189,9 @@ void addViewOptions(CLI::App& command, ViewTexts& view) {
     command.add_option(
         "--layers", view.layerSet,
         "Texture layer set, .toml; with software rendering also give --set surface.layer_use=on");
+    command.add_option(
+        "--regions", view.regions,
+        "Regions with detail of their own, .regions.toml (the file beside FILE, if there is one)");
     addSettingOption(command, "--budget", defaultField("paging.budget_mb"), view);
     addSettingFlag(command, "--no-culling", {"lod.frustum_culling=false", "lod.horizon_culling=false"},
                    "Turn off frustum and horizon culling", view);

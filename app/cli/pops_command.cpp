@@ -132,6 +132,8 @@ Result<void> runPops(const PopsOptions& options) {
     auto planet = planet::Planet::open(options.file, pagingSettingsOf(options.view));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(options.view.surface.exaggeration);
+    if (const auto set = (*planet)->setRegions(options.view.regions.applied()); !set)
+        return tl::unexpected(set.error());
     const InterruptWatch watch;
     const Result<PopsFlight> flown =
         flyForPops(**planet, *path, options.view, options.size, frames->stepS,

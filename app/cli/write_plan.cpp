@@ -59,7 +59,8 @@ void addLevelImages(CommandFiles& files, const fs::path& folder) {
 CommandFiles filesOf(const AppOptions& options) {
     CommandFiles files;
     addSource(files, options.file.empty() ? earthElevation() : options.file);
-    files.inputs.insert(files.inputs.end(), {options.settingsFile, options.shaderFolder});
+    files.inputs.insert(files.inputs.end(),
+                        {options.settingsFile, options.shaderFolder, options.regionsFile});
     files.outputs = {{options.itemMapFile, OutputKind::ItemMap}};
     return files;
 }
@@ -210,7 +211,7 @@ CommandFiles filesOf(const TraceCommandOptions& options) {
 }
 
 void addInputs(CommandFiles& files, const ViewTexts& texts) {
-    files.inputs.insert(files.inputs.end(), {texts.settingsFile, texts.layerSet});
+    files.inputs.insert(files.inputs.end(), {texts.settingsFile, texts.layerSet, texts.regions});
 }
 
 }  // namespace worldy

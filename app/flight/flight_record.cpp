@@ -15,11 +15,13 @@
 #include <set>
 
 #include "app/base/utf8.h"
+#include "app/settings/region_file.h"
 #include "app/settings/setting_value.h"
 #include "app/settings/settings_schema.h"
 #include "app/settings/settings_text.h"
 #include "planet/base/atomic_file.h"
 #include "planet/base/little_endian.h"
+#include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
 
 namespace worldy {
@@ -38,6 +40,9 @@ using planet::Result;
 constexpr std::array<char, 8> magic = {'W', 'Y', 'F', 'L', 'I', 'G', 'H', 'T'};
 constexpr std::size_t headerBytes = 28;
 constexpr std::size_t mostBytesOfText = 1 << 16;
+constexpr std::size_t mostBytesOfSetting = 1 << 22;  // regions take the most
+// Regions are no setting in files, but recorded like one, as the text of a regions file.
+constexpr std::string_view regionsKey = "regions=";
 constexpr int mostSidePx = 1 << 16;
 constexpr int compressionLevel = 9;
 
@@ -207,15 +212,15 @@ public:
         if (wanted > most) fail(fmt::format("{} {}; expected at most {}", wanted, what, most));
         return ok() ? wanted : 0;
     }
-    std::string text() {
-        const std::size_t size = countUpTo(mostBytesOfText, "bytes of one text", 1);
+    std::string text(std::size_t mostBytes) {
+        const std::size_t size = countUpTo(mostBytes, "bytes of one text", 1);
         std::string text;
         for (std::size_t i = 0; i < size && ok(); ++i) text.push_back(get<char>());
         return text;
     }
     // Reads a text for reports and messages, which need UTF-8.
-    std::string utf8(const char* what) {
-        std::string value = text();
+    std::string utf8(const char* what, std::size_t mostBytes = mostBytesOfText) {
+        std::string value = text(mostBytes);
         if (!isUtf8(value)) fail(fmt::format("{} is not UTF-8", what));
         return ok() ? value : std::string();
     }
@@ -325,7 +330,7 @@ FlownView readFlownView(Reader& in) {
 
 FlightData readData(Reader& in) {
     FlightData data;
-    data.chunkFile = in.text();
+    data.chunkFile = in.text(mostBytesOfText);
     data.shape.radiusM = in.number(1e-3, 1e9);
     data.shape.quantumM = in.number(1e-12, 1e9);
     data.shape.baseHeightM = in.number(-1e9, 1e9);
@@ -381,7 +386,7 @@ CalledInFlight readCall(Reader& in, FlightSoFar& soFar) {
         called.pagingPaused = in.get<std::uint8_t>() != 0;
         for (std::size_t left = in.countUpTo(soFar.settingsACall, "settings in a call", 1);
              left > 0 && in.ok(); --left)
-            called.settings.push_back(in.utf8("setting"));
+            called.settings.push_back(in.utf8("setting", mostBytesOfSetting));
         if (!in.ok()) return called;
         if (const Result<void> good = applyFlightSettings(called.settings, soFar.settings); !good)
             in.fail("invalid setting: " + good.error().message);
@@ -577,6 +582,7 @@ std::vector<std::string> flightSettings(const ViewSettings& now) {
     for (const Field& field : fieldsOf(copy)) {
         if (isFlightField(field)) assignments.push_back(fmt::format("{}={}", field.name(), plainText(field)));
     }
+    assignments.push_back(fmt::format("{}{}", regionsKey, regionsText(now.regions.all())));
     return assignments;
 }
 
@@ -593,6 +599,12 @@ Result<void> applyFlightSettings(const std::vector<std::string>& assignments, Vi
     Settings all;
     all.view = settings;
     for (const std::string& assignment : assignments) {
+        if (assignment.starts_with(regionsKey)) {
+            TRY_ASSIGN(auto regions, regionsFromText(std::string_view(assignment).substr(regionsKey.size()),
+                                                     "recorded regions"));
+            all.view.regions.list = std::make_shared<const std::vector<planet::Region>>(std::move(regions));
+            continue;
+        }
         const bool ofView = isViewTable(assignment.substr(0, assignment.find('.')));
         if (!ofView)
             return planet::badInput(

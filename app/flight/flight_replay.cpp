@@ -63,6 +63,7 @@ ReplayedPlanet headless(planet::Planet& planet) {
     return {planet, [](std::uint32_t, planet::StepsView) {},
             [&planet](const ViewSettings& settings, bool paused, planet::PagingTime time) {
                 planet.setExaggeration(settings.surface.exaggeration);
+                if (auto set = planet.setRegions(settings.regions.applied()); !set) return set;
                 return planet.setPaging(pagingSettingsOf(settings, paused, time)).map([](bool) {});
             }};
 }

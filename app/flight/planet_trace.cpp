@@ -119,7 +119,8 @@ void PlanetTrace::tellNodes(const planet::Planet& planet, std::size_t view) {
     const planet::ErrorMetric metric = planet.views()[view].input.lod.metric;
     for (const planet::VisitedNode& visited : planet.selection(view).touched) {
         const planet::ChunkNode& node = tree.nodes[visited.node];
-        const Told now{planet::deltaOf(node, metric), node.maxHeightM};
+        // A region's factor on τ counts like an error that is less by it, so that tools compare with one τ.
+        const Told now{planet::deltaOf(node, metric) / node.demand.tauFactor, node.maxHeightM};
         const auto known = told_.find(node.id);
         if (known != told_.end() && known->second.errorM == now.errorM &&
             known->second.maxHeightM == now.maxHeightM)

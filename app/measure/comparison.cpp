@@ -96,6 +96,8 @@ Result<void> addPops(const ComparedSide& side, const ComparisonPlan& plan, bool 
     auto planet = planet::Planet::open(side.chunkFile, pagingSettingsOf(side.settings));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(side.settings.surface.exaggeration);
+    if (const auto set = (*planet)->setRegions(side.settings.regions.applied()); !set)
+        return tl::unexpected(set.error());
     const Result<PopsFlight> flown =
         flyForPops(**planet, plan.path, side.settings, plan.size, plan.popStepS, software, goOn);
     if (!flown) return tl::unexpected(flown.error());

@@ -49,7 +49,8 @@ void appendSwitchDistance(const planet::Planet& planet, const planet::View& lodV
     if (index == planet::noNode) return;
     const planet::ChunkNode& node = planet.tree().nodes[index];
     planet::appendBox(node.bounds.box, boundsColour, lines);
-    const double scale = planet::screenScalePx(lodView) / planet.views()[0].input.lod.tauPx;
+    const double scale = planet::screenScalePx(lodView) /
+                         (planet.views()[0].input.lod.tauPx * static_cast<double>(node.demand.tauFactor));
     const double switchDistanceM =
         static_cast<double>(planet::deltaOf(node, planet.views()[0].input.lod.metric)) * scale;
     if (switchDistanceM == 0) return;  // a leaf is never replaced

@@ -45,7 +45,7 @@ struct TintScale {
     double tauPx;
     double nowS;
     double newestLoad;
-    const planet::PlanetShape& shape;
+    const planet::ChunkTree& tree;
     const TintData& data;
 };
 
@@ -63,7 +63,7 @@ glm::vec3 leafColour(const planet::DrawItem& item, const planet::ChunkNode& node
     if (!scale.data.depths && !isLeaf) return unmeasuredColour;
     const int level = isLeaf ? item.id.level : deepestLeaf(*scale.data.depths, item.id, false);
     if (scale.overlay.colourBy == ColourBy::LeafDepth) return levelColour(level);
-    return rampColour(spacingShare(level, planet::deepestLevelOf(scale.shape)));
+    return rampColour(spacingShare(level, planet::deepestLevelOf(scale.tree.shape)));
 }
 
 glm::vec3 sourceColour(const planet::ChunkId& id, const TintScale& scale) {
@@ -94,6 +94,8 @@ glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, co
             return leafColour(item, node, scale);
         case ColourBy::Source:
             return sourceColour(item.id, scale);
+        case ColourBy::Region:
+            return demandColour(scale.tree, node.demand);
         case ColourBy::None:
             break;
     }
@@ -161,14 +163,27 @@ glm::vec3 layerColour(std::size_t layer) {
     return levelColour(static_cast<int>(layer));
 }
 
+glm::vec3 regionColour(std::size_t region) {
+    // The first colour of levels, blue, would be lost on the sea.
+    return levelColour(static_cast<int>(region % (hues.size() - 1)) + 1);
+}
+
+glm::vec3 demandColour(const planet::ChunkTree& tree, const planet::ChunkDemand& demand) {
+    if (demand.region == planet::noRegion || !tree.regions) return noRegionColour;
+    const planet::Region& region = tree.regions->regions()[demand.region];
+    const double own = std::log2(region.tauFactor.value_or(1));
+    const double share =
+        own == 0 ? 1 : std::clamp(std::log2(static_cast<double>(demand.tauFactor)) / own, 0.25, 1.0);
+    return glm::mix(noRegionColour, regionColour(demand.region), static_cast<float>(share));
+}
+
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
                                               const OverlaySettings& overlay, double tauPx,
                                               const TintData& data) {
     if (overlay.colourBy == ColourBy::None) return {};
     const planet::ChunkTree& tree = planet.tree();
-    const TintScale scale{overlay,    tauPx, planet.lastStep().nowS, newestLoad(tree, selection),
-                          tree.shape, data};
+    const TintScale scale{overlay, tauPx, planet.lastStep().nowS, newestLoad(tree, selection), tree, data};
     const auto strength = static_cast<std::uint8_t>(std::lround(std::clamp(overlay.opacity, 0.0, 1.0) * 255));
     std::vector<planet::gl::ChunkTint> tints;
     tints.reserve(selection.draw.size());

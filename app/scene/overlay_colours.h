@@ -39,6 +39,12 @@ double leafSpacingM(const planet::PlanetShape& shape, double level);
 glm::vec3 layerColour(std::size_t layer);     // of the source; neighbours differ in hue
 inline const glm::vec3 noLayerColour(0.25f);  // for chunks in whose middle no layer has a height
 
+// Returns the colour of a region, by its place in the list.
+glm::vec3 regionColour(std::size_t region);
+inline const glm::vec3 noRegionColour(0.35f);  // for chunks about which no region decides
+// Returns the colour of a chunk: that of the region that decides about it, mixed with noRegionColour in the soft border.
+glm::vec3 demandColour(const planet::ChunkTree& tree, const planet::ChunkDemand& demand);
+
 // The topmost layer with a height in the middle of chunks; nothing where no layer has one.
 using SourceTops = std::unordered_map<planet::ChunkId, std::optional<std::size_t>>;
 

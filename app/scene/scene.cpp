@@ -110,10 +110,13 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& s
     auto planet = planet::Planet::open(config.chunkFile, pagingSettingsOf(settings));
     if (!planet) return tl::unexpected(planet.error());
     (*planet)->setExaggeration(settings.surface.exaggeration);
+    if (const auto set = (*planet)->setRegions(settings.regions.applied()); !set)
+        return tl::unexpected(set.error());
     auto renderer = planet::gl::PlanetRenderer::create(**planet, {config.shaderFolder, config.programs});
     if (!renderer) return tl::unexpected(renderer.error());
     Scene scene{std::move(*planet), std::move(*renderer)};
     scene.identity = std::make_shared<const int>(0);
+    scene.regions = settings.regions.on ? settings.regions.list : nullptr;
     scene.colourImage = config.colourImage;
     // Only the renderer knows whether the CPU draws. applyLiveSettings reports what is refused here.
     if (auto applied = applyPaging(scene, pagingSettingsOf(settings, false, std::nullopt, drawsByCpu(scene)));
@@ -148,6 +151,11 @@ planet::Result<void> applyLiveSettings(Scene& scene, const ViewSettings& asked, 
     const double before = scene.planet->tree().exaggeration;
     scene.planet->setExaggeration(settings.surface.exaggeration);
     if (scene.planet->tree().exaggeration != before) scene.renderer.fitShape(*scene.planet);
+    const auto regions = settings.regions.on ? settings.regions.list : nullptr;
+    if (regions != scene.regions) {
+        scene.regions = regions;
+        if (auto set = scene.planet->setRegions(settings.regions.applied()); !set) return set;
+    }
     return applyPaging(scene, pagingSettingsOf(settings, pagingPaused, time, drawsByCpu(scene)));
 }
 

@@ -12,6 +12,7 @@
 #include "app/scene/clipmap_trace.h"
 #include "app/scene/costly_parts.h"
 #include "app/scene/frame_stats.h"
+#include "app/scene/region_lines.h"
 #include "app/settings/view_settings.h"
 #include "planet/gl/draw/debug_shapes.h"
 #include "planet/gl/draw/planet_renderer.h"
@@ -30,9 +31,11 @@ struct Scene {
     ClipmapTrace clipmap{};
     // Settings that setPaging refused. They are reported once and not tried again until they change.
     std::optional<planet::PagingSettings> refusedPaging{};
-    std::vector<std::string> problems{};  // not yet reported
-    LayerPictures layers{};               // read when layers are first drawn
+    std::vector<std::string> problems{};                           // not yet reported
+    std::shared_ptr<const std::vector<planet::Region>> regions{};  // those that the planet was last given
+    LayerPictures layers{};                                        // read when layers are first drawn
     TurnedDown turnedDown{};              // Automatic features that the window has measured to be too slow
+    RegionOutlines regionOutlines{};      // as the editor last drew them
     std::optional<double> seaSurfaceM{};  // metres above the radius; set while the sea is drawn as water
     // Unique to each scene. Compare it to detect a new scene: its planet may have the address of the old one.
     std::shared_ptr<const int> identity{};

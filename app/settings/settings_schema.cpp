@@ -121,6 +121,14 @@ void addBudget(Fields& fields, BudgetSettings& budget) {
           Number{&budget.hysteresis, {0, 0.5, ""}}, "Budget band"}});
 }
 
+void addRegions(Fields& fields, RegionSettings& regions) {
+    fields.push_back(
+        {"regions", "on", "Regions",
+         "Applies the regions of the planet (Regions panel): places with a factor on the tolerance, with "
+         "limits of level or with a metric of their own. Off: the whole planet has the same tolerance.",
+         Flag{&regions.on}});
+}
+
 void addSeams(Fields& fields, planet::LodSettings& lod, OverlaySettings& overlay) {
     fields.insert(
         fields.end(),
@@ -226,9 +234,9 @@ void addPaging(Fields& fields, PagingOptions& paging) {
           Seed{&disk.seed}}});
 }
 
-constexpr std::array<std::string_view, 11> colourByLabels = {
-    "none",     "level",      "ε / τ",          "δc",    "morph", "age", "load order",
-    "measured", "leaf depth", "sample spacing", "source"};
+constexpr std::array<std::string_view, 12> colourByLabels = {
+    "none",     "level",      "ε / τ",          "δc",     "morph", "age", "load order",
+    "measured", "leaf depth", "sample spacing", "source", "region"};
 constexpr std::array<std::string_view, 3> skirtPaintLabels = {"as ground", "highlighted", "only skirts"};
 constexpr std::array<std::string_view, 4> chunkLabelsLabels = {"none", "level", "ε", "level and ε"};
 
@@ -239,8 +247,9 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "Quantity that tints the chunks in the viewport. ε / τ is the screen-space error relative to the "
           "tolerance, δc the geometric error in metres, age the time since loading, and measured the last "
           "measured error (True error panel) relative to the tolerance. Leaf depth is the level of the "
-          "deepest leaf under a chunk, sample spacing the distance of the samples there, and source the "
-          "topmost layer of the source that has a height in the middle of the chunk.",
+          "deepest leaf under a chunk, sample spacing the distance of the samples there, source the topmost "
+          "layer of the source that has a height in the middle of the chunk, and region the region that "
+          "decides about the chunk (Regions panel), paler in its soft border.",
           Choice{asByte(overlay.colourBy), colourByNames, colourByLabels}},
          {"overlay", "opacity", "Opacity",
           "Opacity of the tint. Smaller: more of the ground shows, but colours are harder to tell apart. At "
@@ -284,6 +293,11 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "Texels filled in the last two seconds are magenta if the window moved, cyan if tiles were loaded "
           "or evicted. Freeze LOD or use an observer to see it from outside.",
           Flag{&overlay.clipmap}},
+         {"overlay", "regions", "Region outlines",
+          "Outlines the circles and polygons of the planet's regions (Regions panel) in the viewport and in "
+          "the net of "
+          "the Quadtree panel, each region in its colour. A region that is off has no outline.",
+          Flag{&overlay.regions}},
          {"overlay", "sources", "Source outlines",
           "Draws what each layer of the source covers, on the planet and on the net of the Quadtree panel, "
           "in the layer's colour of the Sources panel. A layer that covers the planet has no outline.",
@@ -723,6 +737,7 @@ void addCompare(Fields& fields, CompareSettings& compare) {
 
 void addViewSettings(Fields& fields, ViewSettings& view) {
     addLod(fields, view.lod);
+    addRegions(fields, view.regions);
     addBudget(fields, view.budget);
     addSeams(fields, view.lod, view.overlay);
     addPaging(fields, view.paging);
@@ -736,7 +751,7 @@ void addViewSettings(Fields& fields, ViewSettings& view) {
 }
 
 // The size of the largest list, so that it is allocated once.
-constexpr std::size_t fieldCount = 143 + 2 * panelCount + dockCount;
+constexpr std::size_t fieldCount = 145 + 2 * panelCount + dockCount;
 
 }  // namespace
 

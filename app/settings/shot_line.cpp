@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/settings/region_file.h"
 #include "app/settings/settings_text.h"
 
 namespace worldy {
@@ -31,6 +32,8 @@ std::string shotLine(const std::filesystem::path& chunkFile, const planet::Camer
     std::string line = fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", pathWord(chunkFile),
                                    cameraText(pose), size.widthPx, size.heightPx);
     if (!colourImage.empty()) line += " --colour-image " + pathWord(colourImage);
+    const std::filesystem::path regions = view.regions.file;
+    if (!regions.empty() && regions != regionsFileOf(chunkFile)) line += " --regions " + pathWord(regions);
     for (const std::string& assignment : assignmentsFor(view)) line += " --set " + shellWord(assignment);
     return line;
 }

@@ -10,16 +10,30 @@
 
 #include "app/base/text.h"
 #include "app/settings/settings_text.h"
+#include "planet/tree/region.h"
 
 namespace worldy {
 
 namespace {
 
+// Returns the first region that was added, deleted or changed: "Region "Valley" added".
+std::string regionsChange(const std::vector<planet::Region>& before,
+                          const std::vector<planet::Region>& after) {
+    std::size_t first = 0;
+    while (first < before.size() && first < after.size() && before[first] == after[first]) ++first;
+    if (before.size() < after.size()) return fmt::format("Region \"{}\" added", after[first].name);
+    if (before.size() > after.size()) return fmt::format("Region \"{}\" deleted", before[first].name);
+    return first < after.size() ? fmt::format("Region \"{}\"", after[first].name) : "Regions";
+}
+
 std::vector<SettingDifference> differencesOf(const ViewSettings& before, const ViewSettings& after) {
     Settings here, there;
     here.view = before;
     there.view = after;
-    return differences(here, there);
+    std::vector<SettingDifference> found = differences(here, there);
+    if (before.regions.list != after.regions.list || before.regions.file != after.regions.file)
+        found.push_back({"regions", {}, {}, regionsChange(before.regions.all(), after.regions.all())});
+    return found;
 }
 
 // Endings of setting names that denote units.
@@ -52,6 +66,7 @@ std::string nameOf(const SettingDifference& difference) {
         break;
     }
     const std::string& words = difference.label;
+    if (difference.setting == "regions") return words;
     if (difference.there == "true") return words + " on";
     if (difference.there == "false") return words + " off";
     // A ramp or a path would be too long for the menu.

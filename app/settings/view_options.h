@@ -18,6 +18,7 @@ struct ViewTexts {
     std::vector<std::string> assignments;  // --set lod.tau_px=3, "lod.tau_px=3"
     std::string size = "1280x720";
     std::filesystem::path layerSet;  // a set of texture layers
+    std::filesystem::path regions;   // a file of regions; empty: the one beside the planet, if there is one
 };
 
 // Returns the defaults, changed by the settings file, then by the options with their own names, then by the

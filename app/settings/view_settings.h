@@ -3,6 +3,7 @@
 // range.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "planet/select/lod_select.h"
 #include "planet/sphere/sun.h"
 #include "planet/surface/layer_set.h"
+#include "planet/tree/region.h"
 
 namespace worldy {
 
@@ -48,7 +50,8 @@ enum class ColourBy : std::uint8_t {
     Measured,
     LeafDepth,
     Spacing,
-    Source
+    Source,
+    Region
 };
 enum class ChunkLabels : std::uint8_t { None, Level, Error, LevelAndError };
 
@@ -67,6 +70,7 @@ struct OverlaySettings {
     ChunkLabels labels = ChunkLabels::None;
     bool cube = false;
     bool clipmap = false;
+    bool regions = true;   // outlines of the planet's regions
     bool sources = false;  // outlines of the layers of the source
     bool notes = true;     // pins of the notes
 
@@ -167,8 +171,23 @@ struct BudgetSettings {
     bool operator==(const BudgetSettings&) const = default;
 };
 
+// The regions of the planet. They belong to it, and not to the settings that files and presets hold (region_file.h).
+struct RegionSettings {
+    bool on = true;
+    std::shared_ptr<const std::vector<planet::Region>> list{};  // null: none
+    std::string file{};  // that they were read from or saved to; empty if there is none
+
+    // Returns those that apply, and all of them.
+    std::vector<planet::Region> applied() const { return on && list ? *list : std::vector<planet::Region>{}; }
+    std::vector<planet::Region> all() const { return list ? *list : std::vector<planet::Region>{}; }
+    bool operator==(const RegionSettings& other) const {
+        return on == other.on && file == other.file && (list == other.list || all() == other.all());
+    }
+};
+
 struct ViewSettings {
     planet::LodSettings lod;
+    RegionSettings regions;
     BudgetSettings budget;
     PagingOptions paging;
     OverlaySettings overlay;

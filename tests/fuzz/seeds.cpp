@@ -10,10 +10,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 
 #include "app/flight/flight_record.h"
 #include "app/settings/layer_file.h"
+#include "app/settings/region_file.h"
 #include "app/settings/settings_text.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/colour_tile_sampling.h"
@@ -25,6 +27,7 @@
 #include "planet/trace/trace_format.h"
 #include "tests/support/chunk_blocks.h"
 #include "tests/support/earth_windows.h"
+#include "tests/support/random_regions.h"
 #include "tests/support/sparse_source.h"
 
 namespace {
@@ -180,6 +183,14 @@ void settingsFiles(const fs::path& folder) {
     worldy::Settings settings;
     write(folder / "written.toml", worldy::settingsText(settings));
     write(folder / "assignment.toml", std::string("lod.tau_px=3\n"));
+}
+
+void regionsFile(const fs::path& folder) {
+    std::mt19937 random(1);
+    write(folder / "all.regions.toml",
+          worldy::regionsText(planet::randomRegions(random, planet::earthRadiusM, 8)));
+    write(folder / "few.regions.toml",
+          worldy::regionsText(planet::randomRegions(random, planet::earthRadiusM, 2)));
 }
 
 // ---- recorded flights ----
@@ -407,6 +418,7 @@ int main(int argc, char** argv) {
     codedBlocks(folder / "decoders");
     settingsFiles(folder / "settings");
     copyToml(data / "layers", folder / "layer_set");
+    regionsFile(folder / "regions");
     copyToml(data / "flights", folder / "flight_path");
     notes(folder / "notes");
     recordedFlights(folder / "flight_record");

@@ -176,6 +176,37 @@ TEST(Program, ShotsOfTheSameViewAreTheSameAndOptionsChangeThem) {
     EXPECT_EQ(shot("--set lod.tau_px=2 --set surface.exaggeration=1 --set overlay.outlines=false"), plain);
 }
 
+TEST(Program, ARegionsFileIsFoundBesideThePlanetOrNamed) {
+    if (!canDraw()) GTEST_SKIP() << "no EGL context";
+    const TemporaryFolder folder;
+    bakePlanet(folder);
+    const auto write = [&](const std::string& name, double factor) {
+        std::ofstream(folder.path() / name)
+            << "[[region]]\nname = \"spot\"\ncircles = [[10, 20, 20000]]\ntau_factor = " << factor << "\n";
+    };
+    const auto drawn = [&](const std::string& options) {
+        const Ran ran =
+            runWorldy(folder,
+                      "shot planet.chk -o s.png --overwrite --json --size 160x100 --tau 4 --camera "
+                      "10,20,60000,0,-60 " +
+                          options);
+        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+        return json::parse(ran.output)["drawn_chunks"].get<int>();
+    };
+    const int plain = drawn("");
+    write("planet.regions.toml", 0.25);
+    const int finer = drawn("");
+    EXPECT_GT(finer, plain);
+    EXPECT_EQ(drawn("--set regions.on=false"), plain);
+    write("other.regions.toml", 16);
+    EXPECT_LE(drawn("--regions other.regions.toml"), plain);
+    EXPECT_EQ(drawn("--regions planet.regions.toml"), finer);
+    std::ofstream(folder.path() / "planet.regions.toml") << "[[region]]\nname = 3\n";
+    const Ran bad = runWorldy(folder, "shot planet.chk -o s.png --overwrite");
+    EXPECT_EQ(bad.exitCode, 2);
+    EXPECT_THAT(bad.errors, HasSubstr("planet.regions.toml: line 2: region 1: name is 3"));
+}
+
 TEST(Program, SettingsOfThePictureChangeAShot) {
     if (!canDraw()) GTEST_SKIP() << "no EGL context";
     const TemporaryFolder folder;

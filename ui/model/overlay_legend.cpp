@@ -39,6 +39,14 @@ std::vector<LegendEntry> layerEntries(const std::vector<std::string>& layers) {
     return entries;
 }
 
+std::vector<LegendEntry> regionEntries(const std::vector<LegendRegion>& regions) {
+    std::vector<LegendEntry> entries;
+    for (std::size_t i = 0; i < regions.size(); ++i)
+        if (regions[i].on) entries.push_back({regionColour(i), regions[i].name});
+    entries.push_back({noRegionColour, regions.empty() ? "no regions (Regions panel)" : "no region"});
+    return entries;
+}
+
 // Returns a length with two digits below 1 m, which is enough for a scale in decades.
 std::string deltaText(double metres) {
     return metres < 1 ? fmt::format("{:.2g} m", metres) : distanceText(metres);
@@ -52,6 +60,14 @@ std::vector<LegendEntry> rampEntries(Label&& label) {
 }
 
 }  // namespace
+
+std::vector<LegendRegion> legendRegions(const planet::Planet& planet) {
+    std::vector<LegendRegion> regions;
+    if (!planet.tree().regions) return regions;
+    for (const planet::Region& region : planet.tree().regions->regions())
+        regions.push_back({region.name, region.on});
+    return regions;
+}
 
 Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,
                 const LegendFacts& facts) {
@@ -94,6 +110,8 @@ Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deep
             entries.push_back({unmeasuredColour, "not read yet"});
             return {"Sample spacing", entries};
         }
+        case ColourBy::Region:
+            return {"Region", regionEntries(facts.regions)};
         case ColourBy::Source:
             return {"Source", layerEntries(facts.layers)};
         case ColourBy::None:

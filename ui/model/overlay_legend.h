@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/settings/view_settings.h"
+#include "planet/planet.h"
 #include "planet/sphere/planet_shape.h"
 
 namespace worldy::ui {
@@ -20,11 +21,18 @@ struct Legend {
     std::string title;
     std::vector<LegendEntry> entries;
 };
+// A region of the planet.
+struct LegendRegion {
+    std::string name;
+    bool on = true;  // others have no colour
+};
 // The legends of some tints need these facts.
 struct LegendFacts {
     planet::PlanetShape shape{};        // for ColourBy::LeafDepth and Spacing
     std::vector<std::string> layers{};  // for ColourBy::Source: the names from the bottom up; none: not known
+    std::vector<LegendRegion> regions{};  // for ColourBy::Region
 };
+std::vector<LegendRegion> legendRegions(const planet::Planet& planet);
 Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,
                 const LegendFacts& facts = {});
 

@@ -241,6 +241,7 @@ Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay,
     if (layers && overlay.colourBy == ColourBy::Source) {
         for (const planet::SourceLayer& layer : layers->layers) facts.layers.push_back(layer.name);
     }
+    facts.regions = legendRegions(*planet);
     return legendOf(overlay, planet->views()[0].input.lod.tauPx, deepest, facts);
 }
 

@@ -81,11 +81,23 @@ protected:
         recorder.stepped(planet, factors);
     }
 
+    // A region below the flight.
+    static RegionSettings spot(double tauFactor, double radiusM = 8'000) {
+        planet::Region region;
+        region.name = "spot";
+        region.circles = {{{14, 28}, radiusM}};
+        region.borderM = 3'000;
+        region.tauFactor = tauFactor;
+        return {.list = std::make_shared<const std::vector<planet::Region>>(1, region)};
+    }
+
     // With all that can happen between frames.
     Recorder flyAbout(planet::Planet& planet, ViewSettings settings, int frames) const {
         Recorder recorder(planet, "about");
         for (int frame = 0; frame < frames; ++frame) {
             if (frame == 30) settings.lod.tauPx = 3.7;
+            if (frame == 40) settings.regions = spot(0.5);
+            if (frame == 95) settings.regions = spot(4);
             if (frame == 60) settings.paging.badDisk.seed = 9;
             if (frame == 80) settings.surface.exaggeration = 2.5;
             if (frame == 90) settings.paging.budgetMB = 16;
@@ -231,6 +243,32 @@ protected:
 
     const TemporaryFolder folder_;
 };
+
+TEST_F(FlightRecordTest, ARecordingHoldsItsRegions) {
+    const ViewSettings plain;
+    const auto planet = openPlanet(plain);
+    Recorder recorder(*planet, "regions");
+    ViewSettings settings = plain;
+    settings.regions = spot(0.05, 60'000);
+    std::size_t inRegion = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        step(*planet, recorder, settings, frame);
+        for (const planet::DrawItem& item : planet->selection().draw) inRegion += item.tauFactor < 1;
+    }
+    EXPECT_GT(inRegion, 100u);
+    FlightRecord record = loadFlightRecord(written(recorder)).value();
+    EXPECT_EQ(replayed(record, ReplayPaging::AsRecorded).framesDifferent(), 0u);
+    EXPECT_EQ(replayed(record, ReplayPaging::AsRecorded).settings().regions.all(), settings.regions.all());
+    // Without them, the planet does something else.
+    EXPECT_GT(replayed(record, ReplayPaging::AsRecorded, {"regions.on=false"}).framesDifferent(), 0u);
+    std::erase_if(record.frames[0].calls[0].settings,
+                  [](const std::string& one) { return one.starts_with("regions="); });
+    EXPECT_GT(replayed(record, ReplayPaging::AsRecorded).framesDifferent(), 0u);
+    const std::vector<std::string> broken = {"regions=[[region]]\nname = \"a\"\ntau_factor = 0\n"};
+    ViewSettings into;
+    EXPECT_FALSE(applyFlightSettings(broken, into));
+}
 
 TEST_F(FlightRecordTest, AFlightByTheClockReplaysExactlyAsRecorded) {
     const ViewSettings settings = troubled(false);

@@ -149,6 +149,27 @@ TEST(OverlayColours, SourceIsTheTopmostLayerWithAHeight) {
     EXPECT_TRUE(isNear(colourOf(chunkTints(*planet, selection, overlay, 8)[0]), unmeasuredColour));
 }
 
+TEST(OverlayColours, RegionIsTheOneThatDecides) {
+    const auto planet = settledPlanet();
+    OverlaySettings overlay;
+    overlay.colourBy = ColourBy::Region;
+    EXPECT_TRUE(isNear(colourOf(chunkTints(*planet, planet->selection(), overlay, 8)[0]), noRegionColour));
+    std::vector<planet::Region> regions(2);
+    regions[0].name = "idle";
+    regions[1].name = "all";
+    regions[1].circles = {{{0, 0}, 1e9}};
+    regions[1].tauFactor = 2;
+    ASSERT_TRUE(planet->setRegions(regions));
+    for (const auto& tint : chunkTints(*planet, planet->selection(), overlay, 8))
+        EXPECT_TRUE(isNear(colourOf(tint), regionColour(1)));
+    // In a soft border, the colour lies between that of the region and that of none.
+    planet::ChunkDemand soft;
+    soft.region = 1;
+    soft.tauFactor = std::sqrt(2.0f);
+    EXPECT_TRUE(isNear(demandColour(planet->tree(), soft), 0.5f * (regionColour(1) + noRegionColour)));
+    EXPECT_FALSE(isNear(regionColour(0), regionColour(1)));
+}
+
 TEST(OverlayColours, withoutColouringThereAreNoTints) {
     const auto planet = settledPlanet();
     EXPECT_TRUE(chunkTints(*planet, planet->selection(), {}, 2).empty());

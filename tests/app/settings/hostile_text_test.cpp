@@ -9,6 +9,7 @@
 #include "app/flight/flight_path_file.h"
 #include "app/flight/flight_record.h"
 #include "app/settings/layer_file.h"
+#include "app/settings/region_file.h"
 #include "app/settings/settings_text.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
@@ -35,6 +36,7 @@ TEST(HostileText, AKeyOfAMillionPartsIsRefused) {
         EXPECT_THAT(parsed.error().message, HasSubstr("deep.toml: line "));
         EXPECT_FALSE(settingsFromText(text, "deep.toml"));
         EXPECT_FALSE(layerSetFromText(text, "deep.toml"));
+        EXPECT_FALSE(regionsFromText(text, "deep.toml"));
         EXPECT_FALSE(flightPathFromText(text, "deep.toml"));
     }
     Settings settings;
@@ -47,7 +49,7 @@ TEST(HostileText, ANameOfMillionsOfLettersIsRefusedInFewWords) {
     for (const std::string& whole : {text, "[lod]\n" + text, "[[key]]\n" + text}) {
         for (const auto& error :
              {settingsFromText(whole, "long.toml").error(), viewPartFromText(whole, "long.toml").error(),
-              layerSetFromText(whole, "long.toml").error(), flightPathFromText(whole, "long.toml").error()}) {
+              layerSetFromText(whole, "long.toml").error(), regionsFromText(whole, "long.toml").error(), flightPathFromText(whole, "long.toml").error()}) {
             EXPECT_THAT(error.message, HasSubstr("long.toml: line "));
             EXPECT_LT(error.message.size(), 1000u);
         }
@@ -74,6 +76,7 @@ TEST(HostileText, WhatIsNoFileIsRefused) {
         EXPECT_FALSE(loadSettings(path)) << path;
         EXPECT_FALSE(loadViewPart(path)) << path;
         EXPECT_FALSE(loadLayerSet(path)) << path;
+        EXPECT_FALSE(loadRegions(path)) << path;
         EXPECT_FALSE(loadFlightPath(path)) << path;
         EXPECT_FALSE(loadFlightRecord(path)) << path;
     }

@@ -105,7 +105,7 @@ TEST(Settings, EveryFieldOfTheViewAndTheWorkspaceStandsInTheTable) {
     Settings counted;
     for (const Field& field : fieldsOf(counted))
         EXPECT_TRUE(names.insert(field.name()).second) << field.name();
-    EXPECT_EQ(names.size(), 2u + 13 + 5 + 12 + 5 + 13 + 15 + 14 + 8 + 5 + 5 + 11 + 7 + 14 + 2 * panelCount +
+    EXPECT_EQ(names.size(), 2u + 13 + 5 + 12 + 5 + 13 + 15 + 14 + 8 + 5 + 5 + 11 + 7 + 16 + 2 * panelCount +
                                 dockCount + 3 + 4 + 3 + 8);
     for (std::size_t i = 0; i < names.size(); ++i) {
         Settings one;
@@ -282,7 +282,7 @@ TEST(SetSetting, RefusesWithTheNameAndWhatWouldBeRight) {
 TEST(Differences, NameEverySettingOfTheViewThatDiffersAndNoOther) {
     Settings here, there = allOther();
     const std::vector<SettingDifference> all = differences(here, there);
-    EXPECT_EQ(all.size(), 119u);
+    EXPECT_EQ(all.size(), 121u);
     EXPECT_THAT(differences(there, there), IsEmpty());
     there = here;
     there.view.lod.tauPx = 3.5;

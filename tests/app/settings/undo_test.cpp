@@ -34,6 +34,34 @@ TEST(Undo, GoesBackAndForthThroughSteps) {
     EXPECT_EQ(history.redoName(), "");
 }
 
+TEST(Undo, TakesBackWhatWasDoneToARegion) {
+    const auto with = [](std::vector<planet::Region> list) {
+        ViewSettings settings;
+        settings.regions.list = std::make_shared<const std::vector<planet::Region>>(std::move(list));
+        return settings;
+    };
+    planet::Region valley;
+    valley.name = "Valley";
+    planet::Region painted = valley;
+    UndoHistory history;
+    history.record(ViewSettings{}, with({valley}), false, 1);
+    EXPECT_EQ(history.undoName(), "Region \"Valley\" added");
+    // A stroke of the brush, while the button is held.
+    ViewSettings before = with({valley});
+    for (int i = 0; i < 20; ++i) {
+        painted.circles.push_back({{0, i * 1.0}, 1000});
+        history.record(before, with({painted}), true, 3 + i);
+        before = with({painted});
+    }
+    history.record(before, before, false, 30);
+    EXPECT_EQ(history.undoName(), "Region \"Valley\"");
+    EXPECT_EQ(history.undo(), with({valley}));
+    history.record(with({valley}), with({}), false, 40);
+    EXPECT_EQ(history.undoName(), "Region \"Valley\" deleted");
+    EXPECT_EQ(history.undo(), with({valley}));
+    EXPECT_EQ(history.undo(), ViewSettings{});
+}
+
 TEST(Undo, NamesRoundNumbers) {
     UndoHistory history;
     history.record(withTau(2), withTau(19.630435466766357), false, 1);
