@@ -169,6 +169,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     tellProblems(session);
     FrameStats stats;
     part.emplace("planet");
+    if (shownPlanet(session) && !replaying()) followRegions(settings_, shownPlanet(session)->data, notices_);
     if (Scene* scene = shownScene(session)) stats = runPlanet(*scene, movedS, commands);
 
     part.emplace("panels");
@@ -393,7 +394,8 @@ void Editor::drawPictures(Scene& scene) {
                              chunks_.focus,
                              tintDataOf(bakes_.sources),
                              bakes_.sources.reader.layers.get(),
-                             files_.trace};
+                             files_.trace,
+                             brushAt(window_.panels.regions, settings_.settings, chunks_.pointedM)};
     drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), notices_.log);
     const bool counting = settings.compare.mode == CompareMode::Difference ||
                           isShown(settings_.settings.workspace, PanelId::Compare);

@@ -99,7 +99,26 @@ bool leadsToAPlace(const ui::Command& command) {
            command.as<ui::GoBackToPop>() || command.as<ui::LookAsTrace>();
 }
 
+// Paints the chosen region where the pointer is pressed on the main picture. The camera then stays where it is.
+void paintRegion(ui::RegionsPanelState& state, const ui::EditorView& view, const PanelContext& context) {
+    PointerInput& pointer = context.viewport.main.pointer;
+    if (!brushAt(state, context.settings, view.pointedM) || !(pointer.isPressed || pointer.clicked)) return;
+    pointer.dragPx = {0, 0};
+    pointer.clicked = false;
+    const double radiusM = view.planet->tree().shape.radiusM;
+    ui::paint(state.brush, state.chosen, *view.pointedM, radiusM, context.settings.view.regions);
+}
+
 }  // namespace
+
+std::optional<planet::RegionCircle> brushAt(const ui::RegionsPanelState& state, const Settings& settings,
+                                            const std::optional<glm::dvec3>& groundM) {
+    const bool isPainting = state.brush.mode != ui::BrushMode::Off && groundM &&
+                            state.chosen < settings.view.regions.all().size() &&
+                            isShown(settings.workspace, PanelId::Regions);
+    if (!isPainting) return std::nullopt;
+    return planet::RegionCircle{planet::pointOf(*groundM), state.brush.radiusM};
+}
 
 void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands) {
     const ui::EditorView& view = context.view;
@@ -114,6 +133,7 @@ void drawPanels(WindowController& window, const PanelContext& context, ui::Comma
         viewportWindows(view, settings, context.viewport, commands);
     else
         emptyViewport(context.session, view, middle, context.viewport, commands);
+    if (view.planet) paintRegion(window.panels.regions, view, context);
     ui::drawDocks(context.layout, view, window.panels, window.docks, workspace, settings, commands);
     // A maximised dock would hide the place.
     if (ui::maximisedDock(workspace) && std::any_of(commands.begin(), commands.end(), leadsToAPlace))

@@ -1,14 +1,19 @@
 // Draws the panels around the planet's pictures.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <optional>
+
 #include "app/editor/notices.h"
 #include "app/editor/session.h"
 #include "app/editor/viewport.h"
 #include "app/editor/window_controller.h"
 #include "app/settings/settings.h"
+#include "planet/tree/region.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 #include "ui/model/layout.h"
+#include "ui/panels/lod/regions_panel.h"
 #include "ui/shell/open_dialog.h"
 
 namespace worldy {
@@ -23,6 +28,11 @@ struct PanelContext {
     ui::OpenDialogState& openDialog;
     Notices& notices;
 };
+
+// Returns the circle that the brush of the Regions panel would paint at the ground under the pointer; none if it is off.
+std::optional<planet::RegionCircle> brushAt(const ui::RegionsPanelState& state, const Settings& settings,
+                                            const std::optional<glm::dvec3>& groundM);
+
 void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands);
 
 }  // namespace worldy

@@ -7,6 +7,7 @@
 #include "app/data/recent_files.h"
 #include "app/editor/overloaded.h"
 #include "app/flight/flight_record.h"
+#include "app/settings/region_file.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/trace/trace_document.h"
@@ -58,6 +59,7 @@ void keepRecent(FileController& files, Notices& notices) {
 void open(FileController& files, const std::filesystem::path& file, const FileContext& context,
           Notices& notices, ui::Commands& next) {
     if (!planet::isTerrainText(file)) {
+        if (isRegionsFile(file)) return next.push_back(ui::LoadRegions{file});
         if (file.extension() == ".toml" && !planet::isWorldFile(file))
             return openPreset(file, context, notices);
         if (isFlightRecord(file)) return next.push_back(ui::StartReplay{file});

@@ -6,6 +6,7 @@
 #include "app/scene/observer.h"
 #include "app/scene/overlay_colours.h"
 #include "app/scene/overlay_lines.h"
+#include "app/scene/region_lines.h"
 #include "app/scene/source_lines.h"
 
 namespace worldy {
@@ -23,6 +24,13 @@ void appendOutlines(const PictureInput& input, PictureContent& content) {
     const planet::Lines nodes = traceLinesOf(input.trace, input.scene.planet->tree().shape.radiusM,
                                              content.view.eyeM, input.settings.overlay);
     content.frontLines.insert(content.frontLines.end(), nodes.begin(), nodes.end());
+    const planet::ChunkTree& tree = input.scene.planet->tree();
+    follow(input.scene.regionOutlines, tree);
+    const auto append = [&](const planet::Lines& more) {
+        content.frontLines.insert(content.frontLines.end(), more.begin(), more.end());
+    };
+    if (input.settings.overlay.regions) append(regionLines(input.scene.regionOutlines, tree, content.view));
+    if (input.brush) append(brushLines(*input.brush, {255, 255, 255, 255}, tree, content.view));
     if (!input.layers || !input.settings.overlay.sources) return;
     const planet::Lines lines = sourceLines(*input.layers, input.scene.planet->tree(), content.view);
     content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());

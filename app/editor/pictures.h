@@ -2,12 +2,15 @@
 // current.
 #pragma once
 
+#include <optional>
+
 #include "app/editor/camera_controller.h"
 #include "app/editor/instruments_controller.h"
 #include "app/editor/trace_controller.h"
 #include "app/editor/viewport.h"
 #include "app/scene/overlay_colours.h"
 #include "planet/source/source_layers.h"
+#include "planet/tree/region.h"
 
 namespace worldy {
 
@@ -19,6 +22,7 @@ struct PictureInput {
     TintData tints;                                // without the measurement
     const planet::SourceLayers* layers = nullptr;  // of the source; null: not known
     const TraceController& trace;
+    std::optional<planet::RegionCircle> brush{};  // that paints a region at the pointer
 };
 // Draws the main picture, or the frame before or after a pop if the user has requested it. comparing: draws
 // without the fill light, like B.

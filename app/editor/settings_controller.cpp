@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "app/editor/overloaded.h"
+#include "app/settings/region_file.h"
+#include "planet/source/terrain.h"
 
 namespace worldy {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 // Return the path of the file that was saved under a name.
 std::string fileOf(std::span<const ui::PresetView> presets, const std::string& name) {
@@ -84,7 +88,62 @@ void showNextLayout(SettingsController& controller, Notices& notices) {
     showLayout(controller, Workspace(*next.workspace), next.name, notices);
 }
 
+void saveRegions(SettingsController& controller, const fs::path& asked, Notices& notices) {
+    RegionSettings& regions = controller.settings.view.regions;
+    const fs::path named = !regions.file.empty() ? fs::path(regions.file) : controller.regions.beside;
+    const fs::path& file = asked.empty() ? named : asked;
+    if (!succeeded(notices, worldy::saveRegions(regions.all(), file), "The regions were not saved")) return;
+    regions.file = file.string();
+    controller.regions.saved = regions.list;
+    confirm(notices, fmt::format("Regions saved: {}", file.string()));
+}
+
+void loadRegionsInto(SettingsController& controller, const fs::path& file, Notices& notices) {
+    planet::Result<RegionSettings> loaded = regionsFor(file, {});
+    if (!loaded) return tellError(notices, {"The regions cannot be read", loaded.error().message, ""});
+    ViewSettings view = controller.settings.view;
+    loaded->on = true;
+    controller.regions.saved = loaded->list;
+    view.regions = std::move(*loaded);
+    replaceView(controller, std::move(view), "regions of " + file.filename().string());
+    confirm(notices, fmt::format("Regions of {} loaded", file.string()));
+}
+
+bool areSaved(const SettingsController& controller) {
+    const RegionSettings& regions = controller.settings.view.regions;
+    const RegionSettings saved{.list = controller.regions.saved};
+    return regions.list == saved.list || regions.all() == saved.all();
+}
+
 }  // namespace
+
+void followRegions(SettingsController& controller, const DataSet& files, Notices& notices) {
+    RegionFiles& now = controller.regions;
+    if (now.planet == files.source) return;
+    RegionSettings& regions = controller.settings.view.regions;
+    const bool areGiven = now.planet.empty() && !regions.file.empty();
+    const bool areLost = !now.planet.empty() && !areSaved(controller);
+    now.planet = files.source;
+    // The text of a terrain is no file.
+    const fs::path& planetFile = planet::isTerrainText(files.source) ? files.chunkFile : files.source;
+    now.beside = regionsFileOf(planetFile);
+    if (areGiven) {
+        now.saved = regions.list;
+        return;
+    }
+    if (areLost) notices.log->warn("The regions of the planet before were not saved; Undo brings them back");
+    planet::Result<RegionSettings> loaded = regionsFor({}, planetFile);
+    if (!loaded) tellError(notices, {"The regions cannot be read", loaded.error().message, ""});
+    ViewSettings view = controller.settings.view;
+    view.regions = loaded ? *loaded : RegionSettings{};
+    view.regions.on = regions.on;
+    now.saved = view.regions.list;
+    if (areLost)
+        replaceView(controller, std::move(view), "regions of another planet");
+    else
+        controller.settings.view = std::move(view);
+    if (now.saved) notices.log->info("Regions of {} loaded", now.beside.string());
+}
 
 void governFrame(SettingsController& controller, const FrameController& frames, const planet::Planet& planet,
                  double secondsSinceLast) {
@@ -136,6 +195,10 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
                     confirm(notices, fmt::format("Layout {} deleted", layout.name));
             },
             [&](const ui::NextLayout&) { showNextLayout(controller, notices); },
+            [&](const ui::SaveRegions& save) { saveRegions(controller, save.file, notices); },
+            [&](const ui::LoadRegions& load) {
+                if (maySet()) loadRegionsInto(controller, load.file, notices);
+            },
             [&](const ui::ResetLayout&) { showLayout(controller, {}, "default", notices); },
             [&](const ui::RestoreLayout&) { restoreLayout(controller, notices); },
             [&](const ui::DeletePreset& preset) {
@@ -153,8 +216,13 @@ void replaceView(SettingsController& controller, ViewSettings settings, std::str
 
 ui::SettingsView settingsViewOf(SettingsController& controller) {
     return {controller.presets.views(ungoverned(controller, controller.settings.view)),
-            controller.undo.undoName(), controller.undo.redoName(), controller.layouts.layouts(),
-            controller.unsavedLayout.has_value()};
+            controller.undo.undoName(),
+            controller.undo.redoName(),
+            controller.layouts.layouts(),
+            controller.unsavedLayout.has_value(),
+            !areSaved(controller),
+            controller.settings.view.regions.file.empty() ? controller.regions.beside
+                                                          : fs::path(controller.settings.view.regions.file)};
 }
 
 }  // namespace worldy

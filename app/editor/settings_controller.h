@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/data/data_set.h"
 #include "app/data/layout_library.h"
 #include "app/editor/frame_controller.h"
 #include "app/editor/notices.h"
@@ -13,10 +16,18 @@
 #include "app/settings/settings.h"
 #include "app/settings/undo.h"
 #include "planet/planet.h"
+#include "planet/tree/region.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
 namespace worldy {
+
+// Where the regions in the settings belong.
+struct RegionFiles {
+    std::filesystem::path planet{};  // the source of the planet that they are of; empty: of none yet
+    std::filesystem::path beside{};  // their file beside it
+    std::shared_ptr<const std::vector<planet::Region>> saved{};  // as they were read or saved; null: none
+};
 
 struct SettingsController {
     Settings settings;
@@ -25,7 +36,8 @@ struct SettingsController {
     PresetLibrary presets{presetFolders()};
     LayoutLibrary layouts{layoutFolders()};
     std::optional<Workspace> unsavedLayout;  // the last one that another replaced before it was saved
-    Governing governing;                     // moves τ of the settings while a budget is on
+    RegionFiles regions{};
+    Governing governing;  // moves τ of the settings while a budget is on
 };
 
 // Moves τ by the budgets, unless the next frame will not step. secondsSinceLast: >= 0.
@@ -37,6 +49,10 @@ ViewSettings ungoverned(const SettingsController& controller, ViewSettings view)
 // Settings stay as they are during a replay, which restores them at its end.
 void execute(SettingsController& controller, const ui::SettingsCommand& command, bool replaying,
              Notices& notices);
+
+// Call when a planet is shown. For another one than before, reads the regions beside it. Those that the settings of the
+// first planet name stay. files: the source, and its bake.
+void followRegions(SettingsController& controller, const DataSet& files, Notices& notices);
 
 // Replaces the view settings as one undo step. name: as the undo menu shows it, "preset popping".
 void replaceView(SettingsController& controller, ViewSettings settings, std::string name);

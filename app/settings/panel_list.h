@@ -37,7 +37,8 @@ enum class PanelId : std::uint8_t {
     TraceWhatIf,
     Ruler,
     Notes,
-    Timeline
+    Timeline,
+    Regions
 };
 
 // Second: a window of the operating system for a second monitor, which is open while it has panels.
@@ -83,6 +84,7 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::Ruler, "Ruler", "ruler", "Ctrl+Shift+R", Dock::Left, false},
     {PanelId::Notes, "Notes", "notes", "Ctrl+M", Dock::Left, false},
     {PanelId::Timeline, "Timeline", "timeline", "Ctrl+Shift+T", Dock::Bottom, false},
+    {PanelId::Regions, "Regions", "regions", "Ctrl+R", Dock::Right, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

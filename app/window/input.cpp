@@ -66,6 +66,7 @@ PointerInput readPointer(float pixelRatio) {
     input.doubleClicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (!isHeld) return input;
     input.grabs = io.KeyAlt;
+    input.isPressed = !io.KeyAlt && ImGui::IsMouseDown(ImGuiMouseButton_Left);
     // Otherwise ImGui would move the focus to the menu bar when Alt is released.
     if (input.grabs) ImGui::GetCurrentContext()->NavWindowingToggleLayer = false;
     (io.KeyAlt ? input.orbitPx : input.dragPx) = ratio * dragOf(ImGuiMouseButton_Left);

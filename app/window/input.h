@@ -12,6 +12,7 @@ struct PointerInput {
     bool over = false;            // the pointer is over the picture or dragging it
     glm::dvec2 positionPx{0, 0};  // from the picture's top left, in its pixels
     glm::dvec2 dragPx{0, 0};      // right, down; left button
+    bool isPressed = false;       // the left button is held without Alt
     glm::dvec2 lookPx{0, 0};      // right button
     bool grabs = false;           // a button is held with Alt
     glm::dvec2 orbitPx{0, 0};     // left button with Alt

@@ -171,11 +171,18 @@ struct LoadLayout {
 struct DeleteLayout {
     std::string name;
 };
-struct NextLayout {};     // the default, the saved ones, and the panels before the last change of layout
-struct ResetLayout {};    // to the default
+struct NextLayout {};   // the default, the saved ones, and the panels before the last change of layout
+struct ResetLayout {};  // to the default
+struct SaveRegions {    // of the planet, beside it unless they are from another file
+    std::filesystem::path file{};  // empty: that file
+};
+struct LoadRegions {  // replaces those of the planet
+    std::filesystem::path file;
+};
 struct RestoreLayout {};  // to the panels before the last change of layout, if they were not saved
-using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset, SaveLayout, LoadLayout,
-                                     DeleteLayout, NextLayout, ResetLayout, RestoreLayout>;
+using SettingsCommand =
+    std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset, SaveLayout, LoadLayout, DeleteLayout,
+                 NextLayout, ResetLayout, RestoreLayout, SaveRegions, LoadRegions>;
 
 // The window.
 struct CopyCommandLine {};

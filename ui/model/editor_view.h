@@ -149,6 +149,8 @@ struct SettingsView {
     std::string redoName{};
     std::span<const NamedLayout> layouts{};  // of the window
     bool hasUnsavedLayout = false;           // for RestoreLayout
+    bool hasUnsavedRegions = false;
+    std::filesystem::path regionsFile{};  // that SaveRegions writes
 };
 
 // Finished and running measurements of the planet.

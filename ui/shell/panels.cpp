@@ -65,6 +65,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return notesPanel(view, states.notes, settings, commands);
         case PanelId::Timeline:
             return timelinePanel(view, states.timeline, commands);
+        case PanelId::Regions:
+            return regionsPanel(view, states.regions, settings, commands);
     }
 }
 

@@ -15,6 +15,7 @@
 #include "ui/panels/lod/lod_panel.h"
 #include "ui/panels/lod/overlay_panel.h"
 #include "ui/panels/lod/quadtree_panel.h"
+#include "ui/panels/lod/regions_panel.h"
 #include "ui/panels/lod/seams_panel.h"
 #include "ui/panels/log/log_panel.h"
 #include "ui/panels/measure/cracks_panel.h"
@@ -59,6 +60,7 @@ struct PanelStates {
     WhatIfPanelState traceWhatIf;
     NotesPanelState notes;
     TimelinePanelState timeline;
+    RegionsPanelState regions;
 };
 
 // Fills the current window with a panel.

@@ -46,6 +46,16 @@ TEST_F(FileControllerTest, aRecordedFlightIsReplayed) {
     EXPECT_FALSE(files_.opening);
 }
 
+TEST_F(FileControllerTest, aDroppedRegionsFileIsNoPreset) {
+    SettingsController settings;
+    CameraController camera;
+    ui::Commands next;
+    execute(files_, ui::OpenFile{"/maps/valley.regions.toml"}, {session_, settings, camera}, notices_, next);
+    ASSERT_EQ(next.size(), 1u);
+    ASSERT_TRUE(next[0].as<ui::LoadRegions>());
+    EXPECT_EQ(next[0].as<ui::LoadRegions>()->file, "/maps/valley.regions.toml");
+}
+
 // Its error is that of a trace, which names what is expected.
 TEST_F(FileControllerTest, aMissingTraceIsOpenedAsATrace) {
     SettingsController settings;

@@ -52,7 +52,7 @@ TEST(ExplanationText, NamesTheRegionThatDecides) {
                         const planet::RegionEffect& effect) {
         ChunkExplanation made = chunk(ChunkState::Drawn, notSplit, epsPx);
         made.demand = demand;
-        made.regions = {{.name = "Idle", .mostWeight = 1}, effect};
+        made.regions = {planet::RegionEffect{}, effect};
         return whySpelled(made);
     };
     EXPECT_EQ(
@@ -74,12 +74,16 @@ TEST(ExplanationText, NamesTheRegionThatDecides) {
 
 TEST(ExplanationText, SaysWhatARegionDoesInAChunk) {
     const planet::ChunkDemand demand{0.5f, 6, 9, planet::MetricRule::Tight, 0};
-    EXPECT_EQ(
-        regionText({.leastWeight = 1, .mostWeight = 1, .setsLeastLevel = true, .setsMetric = true}, demand),
-        "all of it: level 6 or finer, tight metric");
-    EXPECT_EQ(regionText({.mostWeight = 1, .setsMostLevel = true}, demand),
-              "part of it: no level finer than 9");
-    EXPECT_EQ(regionText({.mostWeight = 0.5}, demand), "in its soft border: a stricter demand decides");
+    planet::RegionEffect effect;
+    effect.mostWeight = 0.5;
+    EXPECT_EQ(regionText(effect, demand), "in its soft border: a stricter demand decides");
+    effect.mostWeight = 1;
+    effect.setsMostLevel = true;
+    EXPECT_EQ(regionText(effect, demand), "part of it: no level finer than 9");
+    effect = {};
+    effect.leastWeight = effect.mostWeight = 1;
+    effect.setsLeastLevel = effect.setsMetric = true;
+    EXPECT_EQ(regionText(effect, demand), "all of it: level 6 or finer, tight metric");
 }
 
 TEST(ExplanationText, OfDrawnChunksSaysWhyTheyAreNotSplit) {

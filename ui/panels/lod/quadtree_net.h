@@ -55,7 +55,7 @@ struct NetData {
 NetData netDataOf(const planet::Planet& planet);
 double epsPxOf(const NetData& data, const planet::ChunkNode& node);
 
-enum class NetColour : std::uint8_t { State, Level, Error, DeltaC, Age, Tight };
+enum class NetColour : std::uint8_t { State, Level, Error, DeltaC, Age, Tight, Region };
 struct NetColouring {
     NetColour by = NetColour::State;
     double errorScale = 1;  // OverlaySettings::errorScale

@@ -47,25 +47,26 @@ Legend stateLegend() {
 
 Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, const OverlaySettings& overlay) {
     if (state.colourBy == 0) return stateLegend();
-    constexpr std::array same = {ColourBy::None,   ColourBy::Level, ColourBy::Error,
-                                 ColourBy::DeltaC, ColourBy::Age,   ColourBy::DeltaC};
+    constexpr std::array same = {ColourBy::None, ColourBy::Level,  ColourBy::Error, ColourBy::DeltaC,
+                                 ColourBy::Age,  ColourBy::DeltaC, ColourBy::Region};
     OverlaySettings asked = overlay;
     asked.colourBy = same[static_cast<std::size_t>(state.colourBy)];
     Legend legend = legendOf(asked, view.planet->views()[0].input.lod.tauPx,
-                             static_cast<std::uint32_t>(deepestLevelOf(view.planet->tree().shape)));
+                             static_cast<std::uint32_t>(deepestLevelOf(view.planet->tree().shape)),
+                             {.regions = legendRegions(*view.planet)});
     if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // uses delta_c's scale
     return legend;
 }
 
 void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
-    choiceIndex(
-        "Colour by", state.colourBy, 0,
-        (std::string("state") + '\0' + "level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' + "δc" +
-         '\0' + "age" + '\0' + "tight" + '\0')
-            .c_str(),
-        "Quantity shown by the colours: selection state, level, screen-space error relative to the "
-        "tolerance, geometric error δc, time since loading, or the tight metric on the scale of δc. Except "
-        "for the state, chunks that are not drawn are dimmed. The Overlay panel sets the scales.");
+    choiceIndex("Colour by", state.colourBy, 0,
+                (std::string("state") + '\0' + "level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' +
+                 "δc" + '\0' + "age" + '\0' + "tight" + '\0' + "region" + '\0')
+                    .c_str(),
+                "Quantity shown by the colours: selection state, level, screen-space error relative to the "
+                "tolerance, geometric error δc, time since loading, the tight metric on the scale of δc, or "
+                "the region that decides. Except "
+                "for the state, chunks that are not drawn are dimmed. The Overlay panel sets the scales.");
     if (button("Fit", "Shows the whole net. Double-clicking beside the faces does the same."))
         state.focus = {};
     ImGui::SameLine();
@@ -113,6 +114,16 @@ void drawSources(ImDrawList& drawList, const NetPlacement& placement, const plan
                 directions.push_back(planet::directionFromGeographic(place));
             drawNetLine(drawList, placement, directions, IM_COL32(0, 0, 0, 150), 2.2f * width);
             drawNetLine(drawList, placement, directions, packed(layerColour(i)), width);
+        }
+    }
+}
+
+void drawRegions(ImDrawList& drawList, const NetPlacement& placement, const RegionOutlines& outlines) {
+    const float width = 1.4f * ImGui::GetFontSize() / 13;
+    for (std::size_t i = 0; i < outlines.lines.size(); ++i) {
+        for (const std::vector<glm::dvec3>& line : outlines.lines[i]) {
+            drawNetLine(drawList, placement, line, IM_COL32(0, 0, 0, 150), 2.2f * width);
+            drawNetLine(drawList, placement, line, packed(regionColour(i)), width);
         }
     }
 }
@@ -283,6 +294,10 @@ void net(const EditorView& view, const NetData& data, ImVec2 size, QuadtreePanel
     drawRects(drawList, state.rects);
     faceNames(drawList, placement);
     if (overlay.sources && view.sources.layers) drawSources(drawList, placement, *view.sources.layers);
+    if (overlay.regions) {
+        follow(state.regionOutlines, view.planet->tree());
+        drawRegions(drawList, placement, state.regionOutlines);
+    }
     const double radiusM = view.planet->tree().shape.radiusM;
     if (view.camera.lodFrozen)
         drawCamera(drawList, placement, view.camera.renderView, radiusM, palette().dim);
