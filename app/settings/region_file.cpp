@@ -171,7 +171,8 @@ Result<void> readRegions(const fs::path& file, const toml::array& array, std::ve
     std::size_t number = 0;
     for (const toml::node& node : array) {
         TRY(readRegion({file, fmt::format("region {}", ++number), node}, regions));
-        if (const Result<void> few = checkCounts(regions); !few) return wrong(file, node, few.error().message);
+        if (const Result<void> few = checkCounts(regions); !few)
+            return wrong(file, node, few.error().message);
     }
     return {};
 }

@@ -49,7 +49,8 @@ TEST(HostileText, ANameOfMillionsOfLettersIsRefusedInFewWords) {
     for (const std::string& whole : {text, "[lod]\n" + text, "[[key]]\n" + text}) {
         for (const auto& error :
              {settingsFromText(whole, "long.toml").error(), viewPartFromText(whole, "long.toml").error(),
-              layerSetFromText(whole, "long.toml").error(), regionsFromText(whole, "long.toml").error(), flightPathFromText(whole, "long.toml").error()}) {
+              layerSetFromText(whole, "long.toml").error(), regionsFromText(whole, "long.toml").error(),
+              flightPathFromText(whole, "long.toml").error()}) {
             EXPECT_THAT(error.message, HasSubstr("long.toml: line "));
             EXPECT_LT(error.message.size(), 1000u);
         }
