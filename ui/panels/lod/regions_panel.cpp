@@ -10,7 +10,6 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
