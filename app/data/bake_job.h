@@ -11,6 +11,7 @@
 
 #include "app/base/job.h"
 #include "app/data/bake_request.h"
+#include "app/data/bake_task.h"
 #include "app/data/source_jobs.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/bake_estimate.h"
@@ -19,12 +20,6 @@
 
 namespace worldy {
 
-// The image for the colour tiles of a bake.
-struct JobColour {
-    std::filesystem::path image{};  // empty: no colours
-    bool mayFail = false;           // true: if the image cannot be read, the bake continues without colours
-};
-
 // Bakes into a file, with colours if an image is given. goOn receives the progress; returning false cancels.
 // If an image that may fail is unreadable, colourProblem is set to the reason.
 planet::Result<planet::BakeReport> bakeWithColour(const planet::HeightSource& heights,
@@ -32,25 +27,6 @@ planet::Result<planet::BakeReport> bakeWithColour(const planet::HeightSource& he
                                                   const std::filesystem::path& output,
                                                   const planet::BakeProgressCallback& goOn,
                                                   const JobColour& colour, std::string& colourProblem);
-
-// A coarse bake of a source, which is there long before the whole one.
-struct FirstLook {
-    planet::BakeSettings settings;
-    std::filesystem::path output;
-};
-
-struct BakeTask {
-    std::filesystem::path source;
-    planet::HeightSourceSettings sourceSettings{};
-    planet::BakeSettings settings{};
-    std::filesystem::path output;
-    JobColour colour{};
-    // Baked first. It is left out if the whole bake has so few samples that it is there as soon.
-    std::optional<FirstLook> firstLook{};
-    std::optional<planet::HeightSource>
-        opened{};            // the source if it is open already; otherwise the bake reads it
-    std::string launcher{};  // starts the bake on several ranks (launched_bake.h); empty: it runs here
-};
 
 // Bakes of up to this many samples, which take a few seconds, have no first look.
 inline constexpr std::uint64_t mostWithoutFirstLook = 8'000'000;

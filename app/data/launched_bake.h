@@ -5,8 +5,10 @@
 #include <stop_token>
 #include <string>
 
-#include "app/data/bake_job.h"
+#include "app/data/bake_task.h"
+#include "planet/bake/bake_report.h"
 #include "planet/bake/job/unit_feed.h"
+#include "planet/base/result.h"
 
 namespace worldy {
 
