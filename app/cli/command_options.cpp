@@ -26,7 +26,7 @@ constexpr FlightSampling everySeconds(double seconds) {
 }
 constexpr const char* reportHelp = "Report to write, JSON";
 
-constexpr std::array<CommandSpec, 19> commandTable = {{
+constexpr std::array<CommandSpec, 20> commandTable = {{
     {.name = "bake",
      .about = "Bake elevation images or rasters, a world file, six cube faces or procedural terrain into a "
               "chunk file",

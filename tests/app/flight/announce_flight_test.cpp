@@ -7,7 +7,7 @@
 namespace worldy {
 namespace {
 
-constexpr double radiusM = 1e5;
+constexpr double flightRadiusM = 1e5;
 
 FlightPath eastwards() {
     return {"east", {{2, {10, 0, 3000, 90, -20}}, {12, {10, 40, 3000, 90, -20}}}};
@@ -22,16 +22,17 @@ planet::View picture() {
 }
 
 TEST(AnnounceFlight, TheViewsAreThoseOfTheFlight) {
-    const AnnouncedFlight announced = announceFlight(eastwards(), 4.1, 1, 4, picture(), radiusM);
+    const AnnouncedFlight announced = announceFlight(eastwards(), 4.1, 1, 4, picture(), flightRadiusM);
     ASSERT_FALSE(announced.views.empty());
     for (const planet::AnnouncedView& one : announced.views) {
         EXPECT_GT(one.inS, 0);
-        EXPECT_EQ(one.view, planet::viewFromPose(poseAt(eastwards(), 4.1 + one.inS), radiusM, 1.2, 640, 400));
+        EXPECT_EQ(one.view,
+                  planet::viewFromPose(poseAt(eastwards(), 4.1 + one.inS), flightRadiusM, 1.2, 640, 400));
     }
 }
 
 TEST(AnnounceFlight, TheHorizonIsCoveredUntilTheNextAnnouncement) {
-    const AnnouncedFlight announced = announceFlight(eastwards(), 4.1, 1, 4, picture(), radiusM);
+    const AnnouncedFlight announced = announceFlight(eastwards(), 4.1, 1, 4, picture(), flightRadiusM);
     const FlightAnnouncement& holds = announced.announcement;
     EXPECT_TRUE(holds.holds(4.1, 4, 1));
     EXPECT_TRUE(holds.holds(holds.untilS - 1e-6, 4, 1));
@@ -46,9 +47,9 @@ TEST(AnnounceFlight, TheHorizonIsCoveredUntilTheNextAnnouncement) {
 
 // Points on a grid: consecutive announcements agree where they overlap.
 TEST(AnnounceFlight, TheNextAnnouncementGoesOnWithTheSamePoints) {
-    const AnnouncedFlight first = announceFlight(eastwards(), 4.1, 1, 4, picture(), radiusM);
+    const AnnouncedFlight first = announceFlight(eastwards(), 4.1, 1, 4, picture(), flightRadiusM);
     const double laterS = first.announcement.untilS + 0.01;
-    const AnnouncedFlight second = announceFlight(eastwards(), laterS, 1, 4, picture(), radiusM);
+    const AnnouncedFlight second = announceFlight(eastwards(), laterS, 1, 4, picture(), flightRadiusM);
     for (std::size_t i = 0; i + 1 < first.views.size(); ++i) {
         EXPECT_EQ(second.views[i].view, first.views[i + 1].view);
         EXPECT_NEAR(laterS + second.views[i].inS, 4.1 + first.views[i + 1].inS, 1e-9);
@@ -56,15 +57,15 @@ TEST(AnnounceFlight, TheNextAnnouncementGoesOnWithTheSamePoints) {
 }
 
 TEST(AnnounceFlight, AFasterFlightIsThereSooner) {
-    const AnnouncedFlight announced = announceFlight(eastwards(), 4.1, 2, 4, picture(), radiusM);
+    const AnnouncedFlight announced = announceFlight(eastwards(), 4.1, 2, 4, picture(), flightRadiusM);
     for (const planet::AnnouncedView& one : announced.views)
         EXPECT_EQ(one.view,
-                  planet::viewFromPose(poseAt(eastwards(), 4.1 + 2 * one.inS), radiusM, 1.2, 640, 400));
+                  planet::viewFromPose(poseAt(eastwards(), 4.1 + 2 * one.inS), flightRadiusM, 1.2, 640, 400));
 }
 
 TEST(AnnounceFlight, TheEndOfTheFlightStays) {
-    const AnnouncedFlight announced = announceFlight(eastwards(), 11.9, 1, 4, picture(), radiusM);
-    const planet::View last = planet::viewFromPose(poseAt(eastwards(), 12), radiusM, 1.2, 640, 400);
+    const AnnouncedFlight announced = announceFlight(eastwards(), 11.9, 1, 4, picture(), flightRadiusM);
+    const planet::View last = planet::viewFromPose(poseAt(eastwards(), 12), flightRadiusM, 1.2, 640, 400);
     EXPECT_EQ(announced.views.back().view, last);
 }
 
