@@ -1,8 +1,6 @@
 #include "planet/bake/bake.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -149,7 +147,7 @@ void noteDamage(BakeReport& report, const std::string& problem) {
 Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, const EarlierBake* earlier,
                        Assembler& assembler, ProgressMeter& meter, BakeReport& report) {
     BakeWalk walk(bake.source, bake.shape, tileLevels, earlier);
-    // The steps in progress, in a ring buffer: they end in the order in which they began.
+    // The steps in progress.
     struct Work {
         BakeStep step;
         Result<StepResult> made;
@@ -158,21 +156,13 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, con
     PerThread<BakeScratch> scratches;
     Result<void> outcome;
     std::atomic<bool> stop = false;
-    std::size_t begun = 0;
-    // Input and output run in order, one at a time; only the output uses outcome.
-    const auto begin = [&](tbb::flow_control& control) -> std::size_t {
+    const auto begin = [&](std::size_t place) {
         std::optional<BakeStep> step = stop ? std::nullopt : walk.next();
-        if (!step) {
-            control.stop();
-            return 0;
-        }
-        const std::size_t place = begun++ % underWay.size();
-        underWay[place].step = *std::move(step);
-        return place;
+        if (step) underWay[place].step = *std::move(step);
+        return step.has_value();
     };
     const auto bakeOne = [&](std::size_t place) {
         underWay[place].made = runStep(bake, earlier, underWay[place].step, scratches.local());
-        return place;
     };
     const auto add = [&](Work&& work) -> Result<void> {
         TRY_ASSIGN(auto made, std::move(work.made));
@@ -190,17 +180,7 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, con
     const auto writeOne = [&](std::size_t place) {
         if (outcome) write(std::move(underWay[place]));
     };
-    using tbb::filter_mode;
-    Handover handover;
-    handover.give();
-    tbb::task_arena(threads).execute([&] {
-        tbb::parallel_pipeline(
-            underWay.size(),
-            tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, Stage(handover, begin)) &
-                tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, Stage(handover, bakeOne)) &
-                tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, Stage(handover, writeOne)));
-    });
-    handover.take();
+    parallelInOrder(threads, underWay.size(), begin, bakeOne, writeOne);
     noteDamage(report, walk.problem());
     return outcome;
 }

@@ -89,4 +89,35 @@ void parallelFor(int threads, std::size_t count, const Body& body) {
     tbb::task_arena(threads).execute([&] { parallelFor(count, body); });
 }
 
+// Runs a pipeline on at most `threads` threads, including the caller's. `places` pieces of work are under way at most, each in
+// a place of its own, [0, places). begin(place) prepares one there, and returns false at the end; work(place) does it; end(place)
+// takes it over. begin and end are called in order, one at a time; work in parallel.
+template <class Begin, class Work, class End>
+void parallelInOrder(int threads, std::size_t places, const Begin& begin, const Work& work, const End& end) {
+    std::size_t begun = 0;
+    const auto beginNext = [&](tbb::flow_control& control) {
+        const std::size_t place = begun % places;
+        if (begin(place))
+            ++begun;
+        else
+            control.stop();
+        return place;
+    };
+    const auto workOn = [&](std::size_t place) {
+        work(place);
+        return place;
+    };
+    using tbb::filter_mode;
+    Handover handover;
+    handover.give();
+    tbb::task_arena(threads).execute([&] {
+        tbb::parallel_pipeline(
+            places,
+            tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, Stage(handover, beginNext)) &
+                tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, Stage(handover, workOn)) &
+                tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, Stage(handover, end)));
+    });
+    handover.take();
+}
+
 }  // namespace planet

@@ -145,7 +145,7 @@ settle; click viewport/picture; expect is_selected z_pos/0/0/0
 
 TEST_F(PanelsWindowTest, PagingDropsHoldsAndFailsAsItIsTold) {
     // All of the panel is in sight.
-    writeWindowSettings(folder, "[window]\nbottom_height = 400\n");
+    writeWindowSettings(folder, "[window]\nbottom_height = 520\n");
     drive(R"sh(
 slide "lod/Tolerance τ" 0; settle
 all=$(counter resident); requested=$(counter requested); triangles=$(counter triangles)

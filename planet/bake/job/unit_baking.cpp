@@ -1,8 +1,5 @@
 #include "planet/bake/job/unit_baking.h"
 
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -158,42 +155,21 @@ Result<void> bakeFeed(const JobPlan& plan, UnitFeed& feed, SpoolWriter& spool,
     const int threads = bakeThreads(plan.settings);
     Pieces pieces(plan, feed);
     UnitAssembly assembly(plan, spool, finished, counts);
-    // The pieces in progress, in a ring buffer: they end in the order in which they began.
     std::vector<BakedPiece> underWay(static_cast<std::size_t>(threads) * 3);
     PerThread<BakeScratch> scratches;
     Result<void> outcome;
-    std::size_t begun = 0;
-    // Input and output run in order, one at a time; only the output uses outcome.
-    const auto begin = [&](tbb::flow_control& control) -> std::size_t {
+    const auto begin = [&](std::size_t place) {
         const std::optional<Piece> piece = feed.hasStopped() ? std::nullopt : pieces.next();
-        if (!piece) {
-            control.stop();
-            return 0;
-        }
-        const std::size_t place = begun++ % underWay.size();
-        underWay[place].piece = *piece;
-        return place;
+        if (piece) underWay[place].piece = *piece;
+        return piece.has_value();
     };
-    const auto bakeOne = [&](std::size_t place) {
-        bakePiece(plan, scratches.local(), underWay[place]);
-        return place;
-    };
+    const auto bakeOne = [&](std::size_t place) { bakePiece(plan, scratches.local(), underWay[place]); };
     const auto addOne = [&](std::size_t place) {
         if (!outcome) return;
         outcome = assembly.add(std::move(underWay[place]));
         if (!outcome) feed.stop();
     };
-    using tbb::filter_mode;
-    Handover handover;
-    handover.give();
-    tbb::task_arena(threads).execute([&] {
-        tbb::parallel_pipeline(
-            underWay.size(),
-            tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, Stage(handover, begin)) &
-                tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, Stage(handover, bakeOne)) &
-                tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, Stage(handover, addOne)));
-    });
-    handover.take();
+    parallelInOrder(threads, underWay.size(), begin, bakeOne, addOne);
     return outcome;
 }
 
