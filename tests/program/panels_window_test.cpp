@@ -144,7 +144,7 @@ settle; click viewport/picture; expect is_selected z_pos/0/0/0
 }
 
 TEST_F(PanelsWindowTest, PagingDropsHoldsAndFailsAsItIsTold) {
-    // All of the panel is in sight.
+    // Most of the panel is in sight.
     writeWindowSettings(folder, "[window]\nbottom_height = 520\n");
     drive(R"sh(
 slide "lod/Tolerance τ" 0; settle
@@ -161,12 +161,13 @@ loaded=$(counter loaded_heights)
 click "paging/Load one"; expect counts loaded_heights -eq $((loaded + 1))
 click paging/Pause; expect counts triangles -eq $triangles
 
-slide "paging/Retry delay" 0; slide "paging/Failure rate" 1
-click "paging/Evict all"; expect counts failed_for_good -gt 0; expect counts awaiting_retry -eq 0; settle
+slide "paging/Retry delay" 0; reach "paging/Retry delay" "paging/Read timing"; slide "paging/Failure rate" 1
+reach "paging/Failure rate" "paging/Evict all" 4; click "paging/Evict all"; expect counts failed_for_good -gt 0; expect counts awaiting_retry -eq 0; settle
 counts failed_heights -eq $((5 * $(counter failed_for_good))) || echo "$(counter failed_heights) reads failed in all"
 counts resident -eq 6 || echo "on a disk that fails, $(counter resident) chunks are resident"
 expect says 'injected read failure'
-click paging/Off; expect hidden paging/Off; click "paging/Failed blocks"; click "paging/Retry failed"
+reach "paging/Retry delay" paging/Off; click paging/Off; expect hidden paging/Off; click "paging/Failed blocks"
+reach "paging/Retry delay" "paging/Retry failed" 4; click "paging/Retry failed"
 expect counts triangles -eq $triangles; expect counts failed_for_good -eq 0; expect hidden "paging/Retry failed"
 )sh",
           usualScreen);
