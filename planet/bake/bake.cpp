@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <optional>
 #include <span>
@@ -16,12 +15,10 @@
 #include "planet/bake/level_images.h"
 #include "planet/bake/subtree_merging.h"
 #include "planet/base/atomic_file.h"
-#include "planet/base/little_endian.h"
 #include "planet/base/parallel.h"
 #include "planet/base/stopwatch.h"
 #include "planet/base/try.h"
 #include "planet/format/chunk_file_format.h"
-#include "planet/source/height_quanta.h"
 
 namespace planet {
 
@@ -158,8 +155,9 @@ Result<void> bakeTiles(const BakeContext& bake, int tileLevels, int threads, con
     std::atomic<bool> stop = false;
     const auto begin = [&](std::size_t place) {
         std::optional<BakeStep> step = stop ? std::nullopt : walk.next();
-        if (step) underWay[place].step = *std::move(step);
-        return step.has_value();
+        if (!step) return false;
+        underWay[place].step = *std::move(step);
+        return true;
     };
     const auto bakeOne = [&](std::size_t place) {
         underWay[place].made = runStep(bake, earlier, underWay[place].step, scratches.local());

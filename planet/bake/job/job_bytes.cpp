@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "planet/base/little_endian.h"
 #include "planet/base/try.h"

@@ -2,12 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
-#include <string_view>
-#include <utility>
 
 #include "planet/bake/bake_finish.h"
 #include "planet/bake/bake_reuse.h"

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <functional>
 #include <queue>
-#include <utility>
 #include <vector>
 
 #include "planet/bake/job/unit_feed.h"

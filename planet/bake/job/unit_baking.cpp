@@ -1,6 +1,5 @@
 #include "planet/bake/job/unit_baking.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <optional>

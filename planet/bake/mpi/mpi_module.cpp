@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <list>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace planet {
