@@ -25,8 +25,8 @@ public:
     AtomicFile& operator=(AtomicFile&&) = delete;
     ~AtomicFile();
 
-    const std::filesystem::path& path() const { return path_; }      // as given to create
-    const std::filesystem::path& target() const { return target_; }  // path() with its links resolved
+    const std::filesystem::path& path() const { return path_; }            // as given to create
+    const std::filesystem::path& target() const { return target_; }        // path() with its links resolved
     const std::filesystem::path& temporary() const { return temporary_; }  // where it is written
     std::uint64_t size() const { return size_; }
     // Counts bytes that other processes have written after size(), by the temporary name.

@@ -54,8 +54,9 @@ TEST(CommandLine, TheReadmeSaysWhichCommandTakesWhichSharedOption) {
     }
     ASSERT_GE(takers.size(), 15u);
     for (const char* command :
-         {"bake", "info", "verify", "probe", "shot", "fly", "bench", "sweep", "cracks", "costs", "pops",
-          "prefetch", "audit", "replay", "compare", "settings", "make-layers", "trace", "attach", "schedule"}) {
+         {"bake",    "info",     "verify",      "probe", "shot",     "fly",     "bench",
+          "sweep",   "cracks",   "costs",       "pops",  "prefetch", "audit",   "replay",
+          "compare", "settings", "make-layers", "trace", "attach",   "schedule"}) {
         const std::set<std::string> options =
             optionsOf(runWorldy(folder, std::string(command) + " --help").output);
         EXPECT_TRUE(options.contains("--json")) << command;

@@ -54,7 +54,8 @@ TEST(MpiModule, aRankWithoutTheModuleIsTold) {
     std::filesystem::copy_file(WORLDY_BINARY, folder / "worldy");
     const Ran ran = runShell(folder, "PMIX_RANK=0 ./worldy bake noise:ridged -o planet.chk");
     EXPECT_EQ(ran.exitCode, 2);
-    EXPECT_THAT(ran.errors, AllOf(HasSubstr("worldy_mpi.so: cannot be loaded"), HasSubstr("-DWORLDY_MPI=ON")));
+    EXPECT_THAT(ran.errors,
+                AllOf(HasSubstr("worldy_mpi.so: cannot be loaded"), HasSubstr("-DWORLDY_MPI=ON")));
     EXPECT_FALSE(std::filesystem::exists(folder / "planet.chk"));
 }
 
