@@ -19,7 +19,7 @@ constexpr int predictedViews = 8;
 // The least height of a predicted eye above the ground that is resident there, metres.
 constexpr double leastClearanceM = 2;
 
-// What is wanted sooner comes first: the priority is 1 / seconds. Among the blocks of one view, it is raised by up to a
+// Blocks that are wanted sooner come first: the priority is 1 / seconds. Among the blocks of one view, it is raised by up to a
 // tenth, less than the step to the next view, for those that exceed the tolerance most.
 void appendPredicted(const std::vector<ChildrenRequest>& requests, double factor, double inS,
                      std::vector<MergedRequest>& predicted) {

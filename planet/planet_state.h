@@ -22,13 +22,13 @@
 
 namespace planet {
 
-// Where one view has been, and where it is announced to be.
+// The course of one view: where it has been, and where it is announced to be.
 struct ViewCourse {
     ViewHistory history;
     std::vector<AnnouncedView> announced;  // ascending times, seconds from the last step
 };
 
-// What views are predicted to want and to use, by kind of blocks.
+// The blocks that views are predicted to want and to use, by kind.
 struct Predicted {
     std::array<std::vector<MergedRequest>, blockKindCount> wanted;
     std::array<std::vector<NodeIndex>, blockKindCount> touched;

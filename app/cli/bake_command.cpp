@@ -24,7 +24,7 @@ namespace worldy {
 
 namespace {
 
-// What is baked, open.
+// The sources that are baked, which are open.
 struct BakeInputs {
     planet::BakeSettings settings;
     planet::HeightSource source;

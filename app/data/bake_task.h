@@ -1,4 +1,4 @@
-// What a bake in the background does (bake_job.h).
+// The task of a bake in the background (bake_job.h).
 #pragma once
 
 #include <filesystem>

@@ -51,7 +51,7 @@ struct GrabbedPoint {
     glm::dvec3 direction{0, 0, -1};  // where it stays in the picture, as holding() takes it
 };
 
-// What a rig has announced to the planet last.
+// The last announcement of a rig to the planet.
 struct RigAnnouncement {
     std::optional<FlightAnnouncement> flight{};
     bool isGlide = false;

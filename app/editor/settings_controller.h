@@ -22,7 +22,7 @@
 
 namespace worldy {
 
-// Where the regions in the settings belong.
+// The planet and the file that the regions in the settings belong to.
 struct RegionFiles {
     std::filesystem::path planet{};  // the source of the planet that they are of; empty: of none yet
     std::filesystem::path beside{};  // their file beside it

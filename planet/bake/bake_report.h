@@ -1,4 +1,4 @@
-// What a bake says of itself, while it runs and at its end.
+// The progress of a bake, and its report at the end.
 #pragma once
 
 #include <cstdint>

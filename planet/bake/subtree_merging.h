@@ -45,7 +45,7 @@ struct Subtree {
 // Returns the subtree of a baked tile, without its blocks.
 Subtree subtreeOf(BakedTile&& tile, std::uint64_t number);
 
-// Where merged subtrees go.
+// Takes merged subtrees.
 class SubtreeSink {
 public:
     // Takes the block of the children of a merged subtree, which follows the blocks under them in the file.

@@ -20,7 +20,7 @@
 
 namespace planet {
 
-// What is loaded before any view wants it (planet/select/prediction.h). Announced: the views of
+// Prefetching loads blocks before any view wants them (planet/select/prediction.h). Announced: the views of
 // Planet::announce(), and the motion of views without an announcement.
 enum class PrefetchMode : std::uint8_t { Off, Motion, Announced };
 

@@ -40,7 +40,7 @@ struct LodSettings {
     bool operator==(const LodSettings&) const = default;
 };
 
-// What a region's levels do to a drawn chunk, whatever its error.
+// The effect of a region's levels on a drawn chunk, whatever its error.
 enum class RegionLimit : std::uint8_t {
     None,
     Least,  // its level is below the least one, so its children are wanted

@@ -1,4 +1,4 @@
-// What the regions of a planet (region.h) demand of a chunk, as plain data.
+// The demand of a planet's regions (region.h) on a chunk, as plain data.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class MetricRule : std::uint8_t { AsSet, Additive, Tight };
 struct ChunkDemand {
     float tauFactor = 1;          // the chunk is good enough while ε <= τ times this
     std::uint8_t leastLevel = 0;  // of a smaller level, it is split whatever its error
-    // Of this level or a larger one, it is not split whatever its error; leastLevel comes first.
+    // A chunk of this level or a larger one is not split, whatever its error; leastLevel comes first.
     std::uint8_t mostLevel = maxLevel;
     MetricRule metric = MetricRule::AsSet;
     // Index of the region that decides the factor or, if none does, a level or the metric.

@@ -38,7 +38,7 @@ struct GroundArea {
     double highestM = 0;
 };
 
-// What a region does in an area.
+// The effect of a region in an area.
 struct RegionEffect {
     std::size_t region = 0;  // its index
     std::string name;

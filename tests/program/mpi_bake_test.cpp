@@ -122,7 +122,7 @@ TEST(MpiBake, aBakeAloneGoesOnToo) {
     EXPECT_TRUE(contentOf(folder / "a.chk") == contentOf(folder / "resumed.chk"));
 }
 
-// What is predicted from the report of a bake.
+// The report of a bake predicts bakes on more ranks.
 TEST(MpiBake, aScheduleIsPredictedFromAReport) {
     const TemporaryFolder folder;
     const std::string small = bake("noise:ridged --face-size 257 --chunk-size 17 -o a.chk");

@@ -17,7 +17,7 @@
 
 namespace planet::test {
 
-// What the threads share.
+// The state that the threads share.
 struct RankHub {
     explicit RankHub(int count)
         : boxes(static_cast<std::size_t>(count)), exchanged(boxes.size()), barrier(count) {}

@@ -41,7 +41,7 @@ std::uint64_t hashOfSettings(const JobPlan& plan) {
     return print.add(std::uint64_t{plan.colourTree.levels.size()}).add(plan.colourTree.tileCount()).hash();
 }
 
-// What a rank says of itself: two hashes, and the program.
+// The identity of a rank: two hashes, and the program.
 struct Identity {
     std::uint64_t source = 0;
     std::uint64_t settings = 0;

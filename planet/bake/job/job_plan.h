@@ -1,4 +1,4 @@
-// What all ranks of a job know before they begin: what is baked, and the units that it falls into.
+// The plan of a job, which all ranks know before they begin: the sources, and the units that the bake falls into.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 
 namespace planet {
 
-// What a real job has cost.
+// The costs of a real job.
 struct UnitCost {
     double seconds = 0;  // of one thread
     std::uint64_t bytes = 0;

@@ -3,8 +3,9 @@
 //
 // A file begins with 32 bytes: "WORLDYSP", u32 version, u32 0, u64 the job, u64 XXH3 of all before. Records follow, each
 // with 64 bytes: u64 the unit, u64 its samples, f64 the seconds that it took, u64 and u64 the lengths of its two parts, u64
-// and u64 their XXH3, u64 XXH3 of the 56 bytes before; then the two parts. All numbers are little-endian. The first part is small: it is what the chunks above a unit
-// need of it. The second is what goes into the output. A job that was killed may leave a record without its end.
+// and u64 their XXH3, u64 XXH3 of the 56 bytes before; then the two parts. All numbers are little-endian. The first part is
+// small: the chunks above a unit need it. The second goes into the output. A job that was killed may leave a record without
+// its end.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +35,7 @@ struct FinishedUnit {
     double seconds = 0;  // of one thread
 };
 
-// Where a finished unit is.
+// The place of a finished unit, and its checksums.
 struct SpoolEntry {
     FinishedUnit done;
     std::uint32_t file = 0;

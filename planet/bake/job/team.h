@@ -1,4 +1,4 @@
-// What the ranks of a job do together: they tell each other what they have, and go on only if none has failed.
+// The ranks of a job tell each other what they have, and go on only if none has failed.
 #pragma once
 
 #include <cstddef>

@@ -39,7 +39,7 @@ private:
     std::uint64_t ranks_;
 };
 
-// What a rank has done, for the progress of the job. Written by its working thread.
+// The work that a rank has done, for the progress of the job. Its working thread writes it.
 struct UnitCounts {
     std::atomic<std::uint64_t> units = 0;
     std::atomic<std::uint64_t> samples = 0;
@@ -81,7 +81,7 @@ private:
     double waitedS_ = 0;
 };
 
-// What is to be done in a job.
+// The work that is left in a job.
 struct UnitWork {
     std::vector<UnitRange> left;
     std::uint64_t unitsTotal = 0;

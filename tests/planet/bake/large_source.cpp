@@ -84,7 +84,7 @@ bool write(GDALDataset& from, GDALDataset& to, int width) {
                                  static_cast<std::size_t>(column % side);
                 const auto other = static_cast<std::size_t>((7 * (first + row) / 5) % side) * side +
                                    static_cast<std::size_t>((9 * column / 7) % side);
-                // As rough as the Andes at 450 m, where neighbours differ by 109 m and slopes by 97 m; the sea bed is smoother.
+                // Land is as rough as the Andes, where neighbours 450 m apart differ by 109 m. The sea bed is smoother.
                 const float roughM = 20 + (heights[i] > 0 ? 0.3F * heights[i] : -0.03F * heights[i]);
                 const float heightM = heights[i] + roughM * (added[one] + added[other]);
                 samples[i] = static_cast<std::int16_t>(std::lrint(std::clamp(heightM, -11000.0F, 9000.0F)));

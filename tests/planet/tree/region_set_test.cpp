@@ -31,7 +31,7 @@ GroundArea placeAt(const glm::dvec3& direction, double heightM) {
     return {{direction, 0}, heightM, heightM};
 }
 
-// What the header says of a single place, written down again in the plainest way: angles by the haversine, insides by the
+// The test computes what the header says of a single place again, in the plainest way: angles by the haversine, insides by the
 // angle that a polygon turns around a place, outlines by points along each edge.
 
 double haversineRad(const glm::dvec3& a, const glm::dvec3& b) {
@@ -285,7 +285,7 @@ TEST(RegionSet, EffectsNameWhatDecides) {
     EXPECT_EQ(away[0].leastWeight, 1);
 }
 
-// What is refused.
+// Files that are refused.
 
 std::string refusal(Region region) {
     const std::vector<Region> regions{std::move(region)};

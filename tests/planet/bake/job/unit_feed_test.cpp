@@ -28,7 +28,7 @@ TEST(UnitShares, LargeSharesComeFirstAndSingleUnitsLast) {
     EXPECT_EQ(shares.front().count, 200u);
     EXPECT_EQ(shares.back().count, 1u);
     EXPECT_TRUE(std::ranges::is_sorted(shares, std::greater<>(), &UnitRange::count));
-    // So one rank cannot have more to do at the end than a small part of what each has done.
+    // Therefore one rank cannot have more to do at the end than a small part of what each has done.
     const auto single = std::ranges::count(shares, 1u, &UnitRange::count);
     EXPECT_GT(single, 32);
 }
