@@ -17,7 +17,7 @@
 //
 // k is counted in the selection (exponentOf). e is the elasticity of a time with respect to the triangles, [0.4, 1], by
 // least squares over the changes of both in the last half minute; the rest of a time does not follow τ. For counts e is 1.
-// So each sample gives the factor by which τ must change, and one change of τ corrects a step of the cost. With a wrong
+// Therefore each sample gives the factor by which τ must change, and one change of τ corrects a step of the cost. With a wrong
 // exponent the error shrinks by the factor |1 - true / assumed| each time the cost responds, so it converges if the true
 // exponent is below twice the assumed one.
 //

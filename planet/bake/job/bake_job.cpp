@@ -32,30 +32,16 @@ std::uint64_t peakMemoryBytes() {
 
 std::vector<std::byte> bytesOf(const SpoolEntry& entry) {
     std::vector<std::byte> bytes;
-    ByteWriter to(bytes);
-    to.put(entry.done.unit);
-    to.put(entry.done.samples);
-    to.put(entry.done.seconds);
-    to.put(entry.file);
-    to.put(entry.offset);
-    to.put(entry.frontBytes);
-    to.put(entry.bodyBytes);
-    to.put(entry.frontSum);
-    to.put(entry.bodySum);
+    putRecord(bytes, entry);
+    ByteWriter(bytes).put(entry.file);
+    ByteWriter(bytes).put(entry.offset);
     return bytes;
 }
 
 SpoolEntry entryFrom(ByteReader& in) {
-    SpoolEntry entry;
-    entry.done.unit = in.get<std::uint64_t>();
-    entry.done.samples = in.get<std::uint64_t>();
-    entry.done.seconds = in.get<double>();
+    SpoolEntry entry = takeRecord(in);
     entry.file = in.get<std::uint32_t>();
     entry.offset = in.get<std::uint64_t>();
-    entry.frontBytes = in.get<std::uint64_t>();
-    entry.bodyBytes = in.get<std::uint64_t>();
-    entry.frontSum = in.get<std::uint64_t>();
-    entry.bodySum = in.get<std::uint64_t>();
     return entry;
 }
 

@@ -84,6 +84,29 @@ Result<std::vector<std::uint32_t>> spoolNumbers(const std::filesystem::path& fol
     return numbers;
 }
 
+void putRecord(std::vector<std::byte>& out, const SpoolEntry& entry) {
+    ByteWriter to(out);
+    to.put(entry.done.unit);
+    to.put(entry.done.samples);
+    to.put(entry.done.seconds);
+    to.put(entry.frontBytes);
+    to.put(entry.bodyBytes);
+    to.put(entry.frontSum);
+    to.put(entry.bodySum);
+}
+
+SpoolEntry takeRecord(ByteReader& in) {
+    SpoolEntry entry;
+    entry.done.unit = in.get<std::uint64_t>();
+    entry.done.samples = in.get<std::uint64_t>();
+    entry.done.seconds = in.get<double>();
+    entry.frontBytes = in.get<std::uint64_t>();
+    entry.bodyBytes = in.get<std::uint64_t>();
+    entry.frontSum = in.get<std::uint64_t>();
+    entry.bodySum = in.get<std::uint64_t>();
+    return entry;
+}
+
 Result<SpoolWriter> SpoolWriter::create(const std::filesystem::path& folder, std::uint32_t number,
                                         std::uint64_t job, const FileCalls& calls) {
     TRY_ASSIGN(auto file, OpenFile::open(spoolFile(folder, number), O_RDWR | O_CREAT | O_TRUNC, calls));
@@ -107,14 +130,7 @@ Result<SpoolEntry> SpoolWriter::append(const FinishedUnit& done, std::span<const
                            sumOf(front), sumOf(body)};
     std::vector<std::byte> record;
     record.reserve(spoolRecordBytes + front.size());
-    ByteWriter out(record);
-    out.put(done.unit);
-    out.put(done.samples);
-    out.put(done.seconds);
-    out.put(entry.frontBytes);
-    out.put(entry.bodyBytes);
-    out.put(entry.frontSum);
-    out.put(entry.bodySum);
+    putRecord(record, entry);
     putSum(record);
     record.insert(record.end(), front.begin(), front.end());
     TRY(file_.write(size_, record));
@@ -160,16 +176,9 @@ Result<std::vector<SpoolEntry>> SpoolReader::entries() const {
         TRY(file_.read(at, record));
         if (!endsInSum(record)) break;
         ByteReader in(record);
-        SpoolEntry entry;
+        SpoolEntry entry = takeRecord(in);
         entry.file = number_;
         entry.offset = at + spoolRecordBytes;
-        entry.done.unit = in.get<std::uint64_t>();
-        entry.done.samples = in.get<std::uint64_t>();
-        entry.done.seconds = in.get<double>();
-        entry.frontBytes = in.get<std::uint64_t>();
-        entry.bodyBytes = in.get<std::uint64_t>();
-        entry.frontSum = in.get<std::uint64_t>();
-        entry.bodySum = in.get<std::uint64_t>();
         const std::uint64_t left = size - entry.offset;
         if (entry.frontBytes > left || entry.bodyBytes > left - entry.frontBytes) break;
         // A part that is damaged on the disk is baked again.

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "planet/base/file_calls.h"
+#include "planet/base/little_endian.h"
 #include "planet/base/open_file.h"
 #include "planet/base/result.h"
 
@@ -45,6 +46,10 @@ struct SpoolEntry {
     std::uint64_t frontSum = 0;  // XXH3
     std::uint64_t bodySum = 0;
 };
+
+// Write and read the numbers of an entry that a record holds: all but where it is.
+void putRecord(std::vector<std::byte>& out, const SpoolEntry& entry);
+SpoolEntry takeRecord(ByteReader& in);
 
 class SpoolWriter {
 public:
