@@ -19,11 +19,11 @@
 #include <vector>
 
 #include "app/base/exit_code.h"
+#include "app/bench/bench_command.h"
 #include "app/cli/app.h"
 #include "app/cli/attach_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/bake_command.h"
-#include "app/cli/bench_command.h"
 #include "app/cli/command_options.h"
 #include "app/cli/compare_command.h"
 #include "app/cli/costs_command.h"

@@ -1,10 +1,10 @@
 // The files that each command reads and writes, according to its options (app/data/write_check.h).
 #pragma once
 
+#include "app/bench/bench_command.h"
 #include "app/cli/app.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/bake_command.h"
-#include "app/cli/bench_command.h"
 #include "app/cli/compare_command.h"
 #include "app/cli/costs_command.h"
 #include "app/cli/cracks_command.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/editor/instrument_views.h"
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 
 namespace worldy {
 

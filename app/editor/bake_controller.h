@@ -11,8 +11,8 @@
 #include "app/data/bake_job.h"
 #include "app/data/source_preview.h"
 #include "app/data/worlds.h"
-#include "app/editor/session.h"
 #include "app/editor/source_controller.h"
+#include "app/session/session.h"
 #include "ui/model/commands.h"
 #include "ui/panels/bake/bake_panel.h"
 

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "app/editor/bookmarks.h"
 #include "app/editor/camera_rig.h"
-#include "app/editor/notices.h"
 #include "app/editor/viewport.h"
 #include "app/flight/recorder.h"
 #include "app/measure/pop_side.h"
+#include "app/session/bookmarks.h"
+#include "app/session/notices.h"
 #include "app/settings/settings.h"
 #include "app/window/window.h"
 #include "ui/model/commands.h"

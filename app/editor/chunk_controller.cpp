@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 #include "planet/measure/pick.h"
 
 namespace worldy {

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "app/editor/presets.h"
-#include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
 #include "app/editor/viewport.h"
 #include "app/measure/comparison_job.h"
 #include "app/measure/error_job.h"
 #include "app/measure/kept_results.h"
+#include "app/session/presets.h"
+#include "app/session/session.h"
 #include "app/settings/session_file.h"
 #include "planet/gl/measure/picture_comparer.h"
 #include "planet/measure/pop_meter.h"

@@ -13,14 +13,14 @@
 #include "app/editor/frame_controller.h"
 #include "app/editor/instruments_controller.h"
 #include "app/editor/layer_controller.h"
-#include "app/editor/notices.h"
 #include "app/editor/paging_controller.h"
 #include "app/editor/recording_controller.h"
-#include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
 #include "app/editor/sweep_controller.h"
 #include "app/editor/viewport.h"
 #include "app/editor/window_controller.h"
+#include "app/session/notices.h"
+#include "app/session/session.h"
 #include "app/window/window.h"
 
 namespace worldy {

@@ -4,10 +4,10 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "app/editor/notices.h"
-#include "app/editor/session.h"
 #include "app/editor/viewport.h"
 #include "app/editor/window_controller.h"
+#include "app/session/notices.h"
+#include "app/session/session.h"
 #include "app/settings/settings.h"
 #include "planet/tree/region.h"
 #include "ui/model/commands.h"

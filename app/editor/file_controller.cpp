@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/data/recent_files.h"
-#include "app/editor/overloaded.h"
 #include "app/flight/flight_record.h"
+#include "app/session/overloaded.h"
 #include "app/settings/region_file.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"

@@ -7,10 +7,10 @@
 
 #include "app/editor/camera_controller.h"
 #include "app/editor/notes_controller.h"
-#include "app/editor/notices.h"
-#include "app/editor/session.h"
 #include "app/editor/settings_controller.h"
 #include "app/editor/trace_controller.h"
+#include "app/session/notices.h"
+#include "app/session/session.h"
 #include "app/settings/session_file.h"
 #include "ui/model/commands.h"
 #include "ui/shell/open_dialog.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 #include "planet/gl/device/gpu_clock.h"
 
 namespace worldy {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "app/editor/camera_controller.h"
-#include "app/editor/notices.h"
 #include "app/editor/viewport.h"
 #include "app/measure/cracks.h"
 #include "app/measure/error_job.h"
@@ -11,6 +10,7 @@
 #include "app/measure/ruler.h"
 #include "app/measure/surface_costs.h"
 #include "app/scene/overlay_lines.h"
+#include "app/session/notices.h"
 #include "app/settings/settings.h"
 #include "planet/measure/lod_changes.h"
 #include "ui/model/commands.h"

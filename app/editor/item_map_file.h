@@ -18,8 +18,8 @@
 #include "app/editor/compare_controller.h"
 #include "app/editor/frame_controller.h"
 #include "app/editor/recording_controller.h"
-#include "app/editor/session.h"
 #include "app/editor/sweep_controller.h"
+#include "app/session/session.h"
 #include "ui/kit/item_map.h"
 
 namespace worldy {

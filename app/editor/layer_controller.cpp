@@ -9,7 +9,7 @@
 #include "app/base/utf8.h"
 #include "app/data/named_files.h"
 #include "app/data/write_check.h"
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 #include "app/settings/layer_file.h"
 #include "planet/surface/layer_place.h"
 

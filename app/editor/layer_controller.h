@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/editor/notices.h"
 #include "app/editor/settings_controller.h"
 #include "app/editor/viewport.h"
 #include "app/scene/scene.h"
+#include "app/session/notices.h"
 #include "app/settings/view_settings.h"
 #include "planet/base/result.h"
 #include "planet/measure/pick.h"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/editor/notices.h"
-#include "app/editor/session.h"
 #include "app/notes/notebook.h"
+#include "app/session/notices.h"
+#include "app/session/session.h"
 #include "app/settings/workspace.h"
 #include "ui/model/commands.h"
 #include "ui/model/notes_view.h"

@@ -1,6 +1,6 @@
 #include "app/editor/paging_controller.h"
 
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 #include "planet/planet_tools.h"
 
 namespace worldy {

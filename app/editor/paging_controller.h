@@ -1,9 +1,9 @@
 // Pauses and controls the paging of the shown planet. Main thread.
 #pragma once
 
-#include "app/editor/notices.h"
 #include "app/flight/recorder.h"
 #include "app/scene/scene.h"
+#include "app/session/notices.h"
 #include "ui/model/commands.h"
 
 namespace worldy {

@@ -14,12 +14,12 @@
 #include "app/editor/compare_controller.h"
 #include "app/editor/frame_controller.h"
 #include "app/editor/instruments_controller.h"
-#include "app/editor/notices.h"
 #include "app/editor/paging_controller.h"
 #include "app/flight/flight_replay.h"
 #include "app/flight/recorder.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/scene.h"
+#include "app/session/notices.h"
 #include "ui/model/commands.h"
 #include "ui/model/recording_view.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 #include "app/settings/region_file.h"
 #include "planet/source/terrain.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/base/places.h"
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 #include "planet/measure/pick.h"
 #include "planet/source/height_source.h"
 #include "ui/model/docking.h"

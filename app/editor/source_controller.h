@@ -10,11 +10,11 @@
 
 #include "app/data/source_jobs.h"
 #include "app/data/world_edit.h"
-#include "app/editor/notices.h"
-#include "app/editor/session.h"
 #include "app/editor/viewport.h"
 #include "app/scene/overlay_colours.h"
 #include "app/scene/overlay_lines.h"
+#include "app/session/notices.h"
+#include "app/session/session.h"
 #include "app/settings/settings.h"
 #include "ui/model/commands.h"
 #include "ui/model/sources_view.h"

@@ -10,10 +10,10 @@
 #include "app/base/picture_file.h"
 #include "app/base/places.h"
 #include "app/data/write_check.h"
-#include "app/editor/overloaded.h"
 #include "app/flight/flight_path.h"
 #include "app/flight/flight_path_file.h"
 #include "app/measure/sweep_plot.h"
+#include "app/session/overloaded.h"
 #include "app/settings/screenshot.h"
 #include "planet/source/terrain.h"
 

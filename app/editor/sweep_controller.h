@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/base/log.h"
-#include "app/editor/notices.h"
-#include "app/editor/session.h"
 #include "app/measure/kept_results.h"
 #include "app/measure/sweep_job.h"
+#include "app/session/notices.h"
+#include "app/session/session.h"
 #include "ui/model/commands.h"
 
 namespace worldy {

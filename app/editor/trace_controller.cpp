@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "app/base/places.h"
-#include "app/editor/overloaded.h"
+#include "app/session/overloaded.h"
 #include "ui/model/docking.h"
 
 namespace worldy {

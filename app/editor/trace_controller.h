@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "app/editor/notices.h"
 #include "app/editor/trace_what_if.h"
+#include "app/session/notices.h"
 #include "app/settings/workspace.h"
 #include "app/trace/trace_compare_job.h"
 #include "app/trace/trace_document.h"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/editor/session.h"
+#include "app/session/session.h"
 #include "planet/gl/device/offscreen_context.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "app/cli/bench_command.h"
+#include "app/bench/bench_command.h"
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -19,8 +19,8 @@
 #include "app/base/output_file.h"
 #include "app/base/places.h"
 #include "app/base/report.h"
-#include "app/cli/bench_comparison.h"
-#include "app/cli/bench_parts.h"
+#include "app/bench/bench_comparison.h"
+#include "app/bench/bench_parts.h"
 #include "app/data/bake_progress.h"
 #include "app/data/own_colour.h"
 #include "planet/gl/device/offscreen_context.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/bench_parts.h"
+#include "app/bench/bench_parts.h"
 #include "planet/base/result.h"
 
 namespace worldy {

@@ -1,4 +1,4 @@
-#include "app/editor/presets.h"
+#include "app/session/presets.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/cli/bench_parts.h"
+#include "app/bench/bench_parts.h"
 
 #include <algorithm>
 

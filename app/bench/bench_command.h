@@ -2,7 +2,7 @@
 // against a plain implementation in the same run. Needs no display, but OpenGL.
 #pragma once
 
-#include "app/cli/bench_options.h"
+#include "app/bench/bench_options.h"
 #include "planet/base/result.h"
 
 namespace worldy {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/bench_options.h"
+#include "app/bench/bench_options.h"
 #include "planet/base/result.h"
 #include "planet/source/height_source.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/base/stopwatch.h"
-#include "app/cli/bench_parts.h"
+#include "app/bench/bench_parts.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/colour_report.h"
 #include "planet/gl/device/offscreen_context.h"

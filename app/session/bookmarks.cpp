@@ -1,4 +1,4 @@
-#include "app/editor/bookmarks.h"
+#include "app/session/bookmarks.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/editor/bookmarks.h"
+#include "app/session/bookmarks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/base/stopwatch.h"
-#include "app/cli/bench_parts.h"
+#include "app/bench/bench_parts.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_settings.h"
 #include "app/settings/camera_text.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/base/stopwatch.h"
-#include "app/cli/bench_parts.h"
+#include "app/bench/bench_parts.h"
 
 namespace worldy {
 

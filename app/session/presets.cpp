@@ -1,4 +1,4 @@
-#include "app/editor/presets.h"
+#include "app/session/presets.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/editor/shortcuts.h"
+#include "app/session/shortcuts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

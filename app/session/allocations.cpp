@@ -1,4 +1,4 @@
-#include "app/editor/allocations.h"
+#include "app/session/allocations.h"
 
 #include "app/base/process_memory.h"
 #include "planet/planet_tools.h"

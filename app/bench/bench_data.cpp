@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/base/picture_file.h"
-#include "app/cli/bench_parts.h"
+#include "app/bench/bench_parts.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/file_report.h"
 #include "planet/planet.h"

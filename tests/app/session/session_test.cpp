@@ -1,4 +1,4 @@
-#include "app/editor/session.h"
+#include "app/session/session.h"
 
 #include <gmock/gmock.h>
 

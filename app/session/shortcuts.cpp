@@ -1,4 +1,4 @@
-#include "app/editor/shortcuts.h"
+#include "app/session/shortcuts.h"
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "app/editor/allocations.h"
+#include "app/session/allocations.h"
 #include "tests/app/session_fixture.h"
 #include "tests/support/panel_fixture.h"
 #include "ui/panels/frame/allocation_table.h"

@@ -1,4 +1,4 @@
-#include "app/editor/notices.h"
+#include "app/session/notices.h"
 
 #include <fmt/format.h>
 

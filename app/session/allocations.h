@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "app/editor/session.h"
+#include "app/session/session.h"
 #include "ui/model/allocations_view.h"
 
 namespace worldy {

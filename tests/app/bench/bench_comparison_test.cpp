@@ -1,4 +1,4 @@
-#include "app/cli/bench_comparison.h"
+#include "app/bench/bench_comparison.h"
 
 #include <gmock/gmock.h>
 
