@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -16,10 +17,10 @@
 #include <utility>
 
 #include "planet/bake/bake_tree.h"
+#include "planet/bake/delta_ranks.h"
 #include "planet/bake/finest_distance.h"
 #include "planet/bake/quantise.h"
 #include "planet/base/parallel.h"
-#include "planet/base/percentile.h"
 #include "planet/base/try.h"
 #include "planet/source/sample_tiles.h"
 #include "planet/sphere/chunk_surface.h"
@@ -32,63 +33,178 @@ namespace {
 // --- reportFile
 // -----------------------------------------------------------------------------------------------------
 
+// What a part of the file holds of a level.
 struct LevelTally {
     std::uint64_t chunks = 0;
     std::uint64_t leaves = 0;
     std::uint64_t bytes = 0;
-    std::vector<float> deltasM;
+    float minDeltaM = std::numeric_limits<float>::infinity();  // of those with children
+    float maxDeltaM = 0;
+    double sumDeltaM = 0;
     double sumTightM = 0;
     float maxTightM = 0;
 
-    void add(const BlockLocation& children, float deltaCM, float deltaTightM) {
-        if (!children.exists()) {
-            ++leaves;
-            return;
-        }
-        deltasM.push_back(deltaCM);
-        sumTightM += deltaTightM;
-        maxTightM = std::max(maxTightM, deltaTightM);
+    void add(const LevelTally& part) {
+        chunks += part.chunks;
+        leaves += part.leaves;
+        bytes += part.bytes;
+        minDeltaM = std::min(minDeltaM, part.minDeltaM);
+        maxDeltaM = std::max(maxDeltaM, part.maxDeltaM);
+        sumDeltaM += part.sumDeltaM;
+        sumTightM += part.sumTightM;
+        maxTightM = std::max(maxTightM, part.maxTightM);
     }
 };
 
-Result<void> tallyChildren(const ChunkFile& file, const ChunkId& parent, BlockLocation block,
-                           std::vector<LevelTally>& levels, std::uint64_t& bytesLeft) {
-    LevelTally& level = levels[parent.level + 1u];
-    level.chunks += quadrantCount;
-    level.bytes += block.size;
-    TRY(spendOn(file, block, bytesLeft));
-    if (parent.level + 1 == deepestLevelOf(file.info().shape)) {
-        level.leaves += quadrantCount;
+// The subtree under a chunk, and what it holds by level; the Error if it cannot be read.
+struct PartTally {
+    ChunkId root;
+    BlockLocation children;
+    std::vector<LevelTally> levels;
+    Result<void> outcome;
+};
+
+// Tallies the index of a file, in parts that are read in parallel. The result is the same for any number of threads.
+class Tallying {
+public:
+    explicit Tallying(const ChunkFile& file)
+        : file_(file), deepest_(deepestLevelOf(file.info().shape)), levels_(emptyLevels()) {
+        for (int level = 0; level <= deepest_; ++level) ranks_.emplace_back(std::array{0.5, 0.99});
+    }
+
+    Result<FileReport> run() {
+        TRY_ASSIGN(auto parts, tallyTop());
+        TRY(tallyAll(parts, &DeltaRanks::add));
+        for (const PartTally& part : parts) {
+            for (std::size_t level = 0; level < levels_.size(); ++level)
+                levels_[level].add(part.levels[level]);
+        }
+        bool isAgain = false;
+        for (DeltaRanks& ranks : ranks_) isAgain = ranks.needsSecondPass() || isAgain;
+        if (isAgain) TRY(tallyAll(parts, &DeltaRanks::addAgain));
+        FileReport report;
+        for (int level = 0; level <= deepest_; ++level) report.levels.push_back(summarise(level));
+        return report;
+    }
+
+private:
+    using AddDelta = void (DeltaRanks::*)(float);
+
+    std::vector<LevelTally> emptyLevels() const {
+        return std::vector<LevelTally>(static_cast<std::size_t>(deepest_) + 1);
+    }
+
+    void tally(int level, const BlockLocation& children, float deltaCM, float deltaTightM,
+               std::vector<LevelTally>& levels, AddDelta addDelta) {
+        LevelTally& to = levels[static_cast<std::size_t>(level)];
+        if (!children.exists()) {
+            ++to.leaves;
+            return;
+        }
+        (ranks_[static_cast<std::size_t>(level)].*addDelta)(deltaCM);
+        to.minDeltaM = std::min(to.minDeltaM, deltaCM);
+        to.maxDeltaM = std::max(to.maxDeltaM, deltaCM);
+        to.sumDeltaM += static_cast<double>(deltaCM);
+        to.sumTightM += static_cast<double>(deltaTightM);
+        to.maxTightM = std::max(to.maxTightM, deltaTightM);
+    }
+
+    // Tallies the chunks of the coarsest levels, and returns the subtrees under them. Those of the first pass only: these
+    // levels have too few chunks for a second.
+    Result<std::vector<PartTally>> tallyTop() {
+        std::vector<PartTally> parts;
+        for (const Face face : allFaces) {
+            TRY_ASSIGN(const auto root, file_.readRoot(face));
+            ++levels_[0].chunks;
+            levels_[0].bytes += file_.info().roots[static_cast<std::size_t>(face)].size;
+            tally(0, root.children, root.deltaCM, root.deltaTightM, levels_, &DeltaRanks::add);
+            if (root.children.exists()) parts.push_back({root.id, root.children, {}, {}});
+        }
+        for (int level = 1; level <= std::min(partLevel, deepest_ - 1); ++level) {
+            std::vector<PartTally> finer;
+            for (const PartTally& part : parts) {
+                std::uint64_t bytesLeft = file_.sizeBytes();
+                TRY_ASSIGN(const auto entries,
+                           readChildren(part.root, part.children, levels_, &DeltaRanks::add, bytesLeft));
+                for (std::size_t q = 0; q < entries.size(); ++q) {
+                    if (entries[q].children.exists())
+                        finer.push_back(
+                            {childOf(part.root, static_cast<int>(q)), entries[q].children, {}, {}});
+                }
+            }
+            parts = std::move(finer);
+        }
+        return parts;
+    }
+
+    Result<void> tallyAll(std::vector<PartTally>& parts, AddDelta addDelta) {
+        parallelFor(parts.size(), [&](std::size_t i) {
+            PartTally& part = parts[i];
+            part.levels = emptyLevels();
+            std::uint64_t bytesLeft = file_.sizeBytes();
+            part.outcome = tallyUnder(part.root, part.children, part.levels, addDelta, bytesLeft);
+        });
+        for (const PartTally& part : parts) TRY(part.outcome);
         return {};
     }
-    TRY_ASSIGN(const auto entries, file.readEntries(parent, block));
-    for (const ChunkEntry& entry : entries) level.add(entry.children, entry.deltaCM, entry.deltaTightM);
-    for (std::size_t q = 0; q < entries.size(); ++q) {
-        if (!entries[q].children.exists()) continue;
-        const ChunkId child = childOf(parent, static_cast<int>(q));
-        TRY(tallyChildren(file, child, entries[q].children, levels, bytesLeft));
-    }
-    return {};
-}
 
-LevelReport summarise(int level, LevelTally& tally) {
-    LevelReport report;
-    report.level = level;
-    report.chunks = tally.chunks;
-    report.leaves = tally.leaves;
-    report.bytes = tally.bytes;
-    if (tally.deltasM.empty()) return report;
-    const auto [least, most] = std::minmax_element(tally.deltasM.begin(), tally.deltasM.end());
-    report.minDeltaM = *least;
-    report.maxDeltaM = *most;
-    report.medianDeltaM = percentileOf(tally.deltasM, 0.5);
-    report.p99DeltaM = percentileOf(tally.deltasM, 0.99);
-    const auto count = static_cast<double>(tally.deltasM.size());
-    report.meanDeltaM = std::accumulate(tally.deltasM.begin(), tally.deltasM.end(), 0.0) / count;
-    report.meanTightM = tally.sumTightM / count;
-    report.maxTightM = tally.maxTightM;
-    return report;
-}
+    // Tallies four siblings, and returns their entries if they can have children.
+    Result<std::array<ChunkEntry, quadrantCount>> readChildren(const ChunkId& parent, BlockLocation block,
+                                                               std::vector<LevelTally>& levels,
+                                                               AddDelta addDelta, std::uint64_t& bytesLeft) {
+        const int level = parent.level + 1;
+        LevelTally& to = levels[static_cast<std::size_t>(level)];
+        to.chunks += quadrantCount;
+        to.bytes += block.size;
+        TRY(spendOn(file_, block, bytesLeft));
+        if (level == deepest_) {
+            to.leaves += quadrantCount;
+            return std::array<ChunkEntry, quadrantCount>{};
+        }
+        TRY_ASSIGN(const auto entries, file_.readEntries(parent, block));
+        for (const ChunkEntry& entry : entries)
+            tally(level, entry.children, entry.deltaCM, entry.deltaTightM, levels, addDelta);
+        return entries;
+    }
+
+    Result<void> tallyUnder(const ChunkId& parent, BlockLocation block, std::vector<LevelTally>& levels,
+                            AddDelta addDelta, std::uint64_t& bytesLeft) {
+        TRY_ASSIGN(const auto entries, readChildren(parent, block, levels, addDelta, bytesLeft));
+        for (std::size_t q = 0; q < entries.size(); ++q) {
+            if (!entries[q].children.exists()) continue;
+            const ChunkId child = childOf(parent, static_cast<int>(q));
+            TRY(tallyUnder(child, entries[q].children, levels, addDelta, bytesLeft));
+        }
+        return {};
+    }
+
+    LevelReport summarise(int level) const {
+        const LevelTally& tally = levels_[static_cast<std::size_t>(level)];
+        LevelReport report;
+        report.level = level;
+        report.chunks = tally.chunks;
+        report.leaves = tally.leaves;
+        report.bytes = tally.bytes;
+        if (tally.chunks == tally.leaves) return report;
+        const DeltaRanks& ranks = ranks_[static_cast<std::size_t>(level)];
+        report.minDeltaM = tally.minDeltaM;
+        report.medianDeltaM = ranks.percentile(0);
+        report.p99DeltaM = ranks.percentile(1);
+        report.maxDeltaM = tally.maxDeltaM;
+        const auto count = static_cast<double>(tally.chunks - tally.leaves);
+        report.meanDeltaM = tally.sumDeltaM / count;
+        report.meanTightM = tally.sumTightM / count;
+        report.maxTightM = tally.maxTightM;
+        return report;
+    }
+
+    static constexpr int partLevel = 3;  // of the chunks whose subtrees are parts: up to 384
+
+    const ChunkFile& file_;
+    int deepest_;
+    std::vector<LevelTally> levels_;
+    std::deque<DeltaRanks> ranks_;  // by level
+};
 
 // --- verifyFile
 // -----------------------------------------------------------------------------------------------------
@@ -586,25 +702,11 @@ private:
 }  // namespace
 
 Result<FileReport> reportFile(const ChunkFile& file) {
-    const PlanetShape& shape = file.info().shape;
-    std::vector<LevelTally> tallies(static_cast<std::size_t>(deepestLevelOf(shape)) + 1);
-    std::uint64_t bytesLeft = file.sizeBytes();
-    for (const Face face : allFaces) {
-        TRY_ASSIGN(const auto root, file.readRoot(face));
-        ++tallies[0].chunks;
-        tallies[0].bytes += file.info().roots[static_cast<std::size_t>(face)].size;
-        tallies[0].add(root.children, root.deltaCM, root.deltaTightM);
-        if (!root.children.exists()) continue;
-        TRY(tallyChildren(file, root.id, root.children, tallies, bytesLeft));
-    }
-    FileReport report;
+    TRY_ASSIGN(FileReport report, Tallying(file).run());
     report.fileBytes = file.sizeBytes();
     report.finestSamples = sampleCountOf(file.info());
     std::uint64_t heightBytes = chunkFileHeaderBytes;
-    for (int level = 0; level <= deepestLevelOf(shape); ++level) {
-        report.levels.push_back(summarise(level, tallies[static_cast<std::size_t>(level)]));
-        heightBytes += report.levels.back().bytes;
-    }
+    for (const LevelReport& level : report.levels) heightBytes += level.bytes;
     report.bitsPerFinestSample =
         8 * static_cast<double>(heightBytes) / static_cast<double>(report.finestSamples);
     return report;

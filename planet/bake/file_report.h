@@ -1,5 +1,5 @@
-// Reports, verifies and probes a chunk file. All functions read the file once, depth first, and keep one path
-// of chunks in memory for each thread.
+// Reports, verifies and probes a chunk file. All functions read the file depth first, and keep one path of chunks in memory
+// for each thread.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,8 @@ struct FileReport {
     std::vector<LevelReport> levels;
 };
 
-// Reports a file. Reads only the index, not the heights.
+// Reports a file. Reads only the index, not the heights; a file with more than 65536 chunks on a level is read twice. Takes
+// at most 1.5 MB for each such level. Runs on oneTBB's threads, and gives the same report for any number of them.
 Result<FileReport> reportFile(const ChunkFile& file);
 
 struct VerifyReport {
