@@ -39,11 +39,15 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
     const planet::Selection& selection = offscreen.scene.planet->selection();
     const FrameStats stats = statsOf(offscreen.scene);
     if (options.json) {
-        nlohmann::ordered_json report = {
-            {"output", options.output.string()},     {"width_px", options.size.widthPx},
-            {"height_px", options.size.heightPx},    {"tau_px", options.view.lod.tauPx},
-            {"fov_deg", options.view.camera.fovDeg}, {"settled", view.settled},
-            {"camera", poseJson(view.pose)},         {"drawn_by_level", drawnByLevel(selection)}};
+        nlohmann::ordered_json report = {{"output", options.output.string()},
+                                         {"width_px", options.size.widthPx},
+                                         {"height_px", options.size.heightPx},
+                                         {"tau_px", options.view.lod.tauPx},
+                                         {"fov_deg", options.view.camera.fovDeg},
+                                         {"settled", view.settled},
+                                         {"camera", poseJson(view.pose)},
+                                         {"drawn_by_level", drawnByLevel(selection)},
+                                         {"regions", regionsJson(offscreen.scene.planet->tree(), selection)}};
         nlohmann::ordered_json drawn = statsJson(stats);
         // Frame times need a series of frames, and there was only one.
         drawn.erase("frame_ms");

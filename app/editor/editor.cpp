@@ -395,7 +395,7 @@ void Editor::drawPictures(Scene& scene) {
                              tintDataOf(bakes_.sources),
                              bakes_.sources.reader.layers.get(),
                              files_.trace,
-                             brushAt(window_.panels.regions, settings_.settings, chunks_.pointedM)};
+                             regionDraft(window_.panels.regions, settings_.settings, chunks_.pointedM)};
     drawMainPicture(viewport_, input, instruments_, compare_.other.has_value(), notices_.log);
     const bool counting = settings.compare.mode == CompareMode::Difference ||
                           isShown(settings_.settings.workspace, PanelId::Compare);

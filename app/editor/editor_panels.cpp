@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <utility>
 
 #include "app/base/text.h"
 #include "ui/kit/inspection.h"
@@ -99,25 +102,34 @@ bool leadsToAPlace(const ui::Command& command) {
            command.as<ui::GoBackToPop>() || command.as<ui::LookAsTrace>();
 }
 
-// Paints the chosen region where the pointer is pressed on the main picture. The camera then stays where it is.
+// Paints the chosen region where the pointer is pressed on the main picture, for which the camera stays where it is, or sets
+// a corner where it was clicked.
 void paintRegion(ui::RegionsPanelState& state, const ui::EditorView& view, const PanelContext& context) {
     PointerInput& pointer = context.viewport.main.pointer;
-    if (!brushAt(state, context.settings, view.pointedM) || !(pointer.isPressed || pointer.clicked)) return;
+    const std::optional<glm::dvec3> last = std::exchange(state.strokeM, std::nullopt);
+    if (!view.pointedM || !regionDraft(state, context.settings, view.pointedM)) return;
+    if (state.brush.mode == ui::BrushMode::Polygon) {
+        if (std::exchange(pointer.clicked, false)) ui::addCorner(*view.pointedM, state.corners);
+        return;
+    }
+    if (!pointer.isPressed && !pointer.clicked) return;
     pointer.dragPx = {0, 0};
     pointer.clicked = false;
     const double radiusM = view.planet->tree().shape.radiusM;
-    ui::paint(state.brush, state.chosen, *view.pointedM, radiusM, context.settings.view.regions);
+    ui::paint(state.brush, state.chosen, {last.value_or(*view.pointedM), *view.pointedM}, radiusM,
+              context.settings.view.regions);
+    if (pointer.isPressed) state.strokeM = view.pointedM;
 }
 
 }  // namespace
 
-std::optional<planet::RegionCircle> brushAt(const ui::RegionsPanelState& state, const Settings& settings,
-                                            const std::optional<glm::dvec3>& groundM) {
-    const bool isPainting = state.brush.mode != ui::BrushMode::Off && groundM &&
-                            state.chosen < settings.view.regions.all().size() &&
-                            isShown(settings.workspace, PanelId::Regions);
-    if (!isPainting) return std::nullopt;
-    return planet::RegionCircle{planet::pointOf(*groundM), state.brush.radiusM};
+std::optional<planet::Region> regionDraft(const ui::RegionsPanelState& state, const Settings& settings,
+                                          const std::optional<glm::dvec3>& groundM) {
+    const bool isDrawing = state.brush.mode != ui::BrushMode::Off &&
+                           state.chosen < settings.view.regions.all().size() &&
+                           isShown(settings.workspace, PanelId::Regions);
+    if (!isDrawing) return std::nullopt;
+    return ui::draftAt(state.brush, state.corners, groundM);
 }
 
 void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands) {

@@ -29,9 +29,10 @@ struct PanelContext {
     Notices& notices;
 };
 
-// Returns the circle that the brush of the Regions panel would paint at the ground under the pointer; none if it is off.
-std::optional<planet::RegionCircle> brushAt(const ui::RegionsPanelState& state, const Settings& settings,
-                                            const std::optional<glm::dvec3>& groundM);
+// Returns a region with what the brush of the Regions panel would add at the ground under the pointer, if there is any; none
+// if the brush is off.
+std::optional<planet::Region> regionDraft(const ui::RegionsPanelState& state, const Settings& settings,
+                                          const std::optional<glm::dvec3>& groundM);
 
 void drawPanels(WindowController& window, const PanelContext& context, ui::Commands& commands);
 

@@ -30,7 +30,7 @@ void appendOutlines(const PictureInput& input, PictureContent& content) {
         content.frontLines.insert(content.frontLines.end(), more.begin(), more.end());
     };
     if (input.settings.overlay.regions) append(regionLines(input.scene.regionOutlines, tree, content.view));
-    if (input.brush) append(brushLines(*input.brush, {255, 255, 255, 255}, tree, content.view));
+    if (input.draft) append(draftLines(*input.draft, {255, 255, 255, 255}, tree, content.view));
     if (!input.layers || !input.settings.overlay.sources) return;
     const planet::Lines lines = sourceLines(*input.layers, input.scene.planet->tree(), content.view);
     content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());

@@ -22,7 +22,7 @@ struct PictureInput {
     TintData tints;                                // without the measurement
     const planet::SourceLayers* layers = nullptr;  // of the source; null: not known
     const TraceController& trace;
-    std::optional<planet::RegionCircle> brush{};  // that paints a region at the pointer
+    std::optional<planet::Region> draft{};  // what the brush would add to a region at the pointer
 };
 // Draws the main picture, or the frame before or after a pop if the user has requested it. comparing: draws
 // without the fill light, like B.

@@ -1,10 +1,14 @@
 #include "app/scene/frame_report.h"
 
+#include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "app/base/glossary.h"
 #include "app/scene/governing.h"
 #include "app/settings/camera_text.h"
+#include "planet/tree/chunk_tree.h"
 
 namespace worldy {
 
@@ -79,6 +83,29 @@ nlohmann::ordered_json statsJson(const FrameStats& stats) {
     json[terms::tauPx.key] = stats.tauPx;
     json[terms::budgetUse.key] = stats.budget.use;
     json[terms::budgetBinds.key] = bindsKey(stats.budget);
+    return json;
+}
+
+nlohmann::ordered_json regionsJson(const planet::ChunkTree& tree, const planet::Selection& selection) {
+    struct Counted {
+        std::string name;
+        int touched = 0;
+        int decided = 0;
+    };
+    std::map<std::size_t, Counted> regions;
+    for (const planet::DrawItem& item : selection.draw) {
+        for (const planet::RegionEffect& effect : planet::regionEffects(tree, item.node)) {
+            Counted& counted = regions[effect.region];
+            counted.name = effect.name;
+            ++counted.touched;
+            counted.decided += effect.decides() ? 1 : 0;
+        }
+    }
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const auto& [region, counted] : regions) {
+        json.push_back(
+            {{"name", counted.name}, {"drawn_chunks", counted.touched}, {"decided_chunks", counted.decided}});
+    }
     return json;
 }
 

@@ -65,12 +65,10 @@ planet::Lines regionLines(const RegionOutlines& outlines, const planet::ChunkTre
     return lines;
 }
 
-planet::Lines brushLines(const planet::RegionCircle& brush, const planet::LineColour& colour,
+planet::Lines draftLines(const planet::Region& draft, const planet::LineColour& colour,
                          const planet::ChunkTree& tree, const planet::View& view) {
-    planet::Region region;
-    region.circles = {brush};
     planet::Lines lines;
-    for (const std::vector<glm::dvec3>& line : planet::outlinesOf(region, tree.shape.radiusM))
+    for (const std::vector<glm::dvec3>& line : planet::outlinesOf(draft, tree.shape.radiusM))
         drape(line, colour, tree, view, lines);
     return lines;
 }

@@ -18,11 +18,11 @@ struct RegionOutlines {
 // Makes the outlines of the tree's regions, if they are others than before.
 void follow(RegionOutlines& outlines, const planet::ChunkTree& tree);
 
-// Return the outlines, or a circle of the brush, on the ground, lifted off it by about two pixels. What lies behind the
+// Return the outlines, or those of one region that is being drawn, on the ground, lifted off it by about two pixels. What lies behind the
 // horizon is left out.
 planet::Lines regionLines(const RegionOutlines& outlines, const planet::ChunkTree& tree,
                           const planet::View& view);
-planet::Lines brushLines(const planet::RegionCircle& brush, const planet::LineColour& colour,
+planet::Lines draftLines(const planet::Region& draft, const planet::LineColour& colour,
                          const planet::ChunkTree& tree, const planet::View& view);
 
 }  // namespace worldy

@@ -184,6 +184,7 @@ TEST(Program, ARegionsFileIsFoundBesideThePlanetOrNamed) {
         std::ofstream(folder.path() / name)
             << "[[region]]\nname = \"spot\"\ncircles = [[10, 20, 20000]]\ntau_factor = " << factor << "\n";
     };
+    json regions;
     const auto drawn = [&](const std::string& options) {
         const Ran ran =
             runWorldy(folder,
@@ -191,13 +192,22 @@ TEST(Program, ARegionsFileIsFoundBesideThePlanetOrNamed) {
                       "10,20,60000,0,-60 " +
                           options);
         EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-        return json::parse(ran.output)["drawn_chunks"].get<int>();
+        const json report = json::parse(ran.output);
+        regions = report["regions"];
+        return report["drawn_chunks"].get<int>();
     };
     const int plain = drawn("");
+    EXPECT_TRUE(regions.empty());
     write("planet.regions.toml", 0.25);
     const int finer = drawn("");
     EXPECT_GT(finer, plain);
+    ASSERT_EQ(regions.size(), 1U);
+    EXPECT_EQ(regions[0]["name"], "spot");
+    EXPECT_GT(regions[0]["drawn_chunks"], 0);
+    EXPECT_LE(regions[0]["drawn_chunks"], finer);
+    EXPECT_EQ(regions[0]["decided_chunks"], regions[0]["drawn_chunks"]) << "no other region is there";
     EXPECT_EQ(drawn("--set regions.on=false"), plain);
+    EXPECT_TRUE(regions.empty());
     write("other.regions.toml", 16);
     EXPECT_LE(drawn("--regions other.regions.toml"), plain);
     EXPECT_EQ(drawn("--regions planet.regions.toml"), finer);

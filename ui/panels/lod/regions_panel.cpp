@@ -236,8 +236,6 @@ void circleControls(const EditorView& view, Region& region, RegionsPanelState& s
         region.circles.push_back(circleInView(view));
         state.circle = region.circles.size() - 1;
     }
-    if (!region.polygons.empty())
-        wrappedText(counted(region.polygons.size(), "polygon") + "; edit them in the file.", palette().dim);
     if (region.circles.empty()) return;
     state.circle = std::min(state.circle, region.circles.size() - 1);
     sameLineForButton("Remove circle");
@@ -270,6 +268,20 @@ void circleControls(const EditorView& view, Region& region, RegionsPanelState& s
     }
 }
 
+void polygonControls(Region& region, RegionsPanelState& state) {
+    if (region.polygons.empty()) return;
+    const std::size_t last = region.polygons.size() - 1;
+    int number = static_cast<int>(std::min(state.polygon, last)) + 1;
+    const std::string format =
+        fmt::format("%d of {}, {}", last + 1,
+                    counted(region.polygons[static_cast<std::size_t>(number) - 1].size(), "corner"));
+    slider("Polygon", number, 1, 1, static_cast<int>(last) + 1, format.c_str(),
+           "The polygon that the button below removes. Its corners are in the file.");
+    state.polygon = static_cast<std::size_t>(std::clamp<int>(number, 1, static_cast<int>(last) + 1) - 1);
+    if (button("Remove polygon", "Removes the polygon above."))
+        region.polygons.erase(region.polygons.begin() + static_cast<std::ptrdiff_t>(state.polygon));
+}
+
 void heightControls(Region& region) {
     bool isSet = region.heights.has_value();
     if (checkbox("Only at heights", isSet, false,
@@ -288,13 +300,36 @@ void heightControls(Region& region) {
     band.highestM = std::max(band.lowestM, band.highestM);
 }
 
-void brushControls(const EditorView& view, RegionBrush& brush) {
-    choice("Brush", brush.mode, BrushMode::Off, "off\0paint\0erase\0",
+// Draws what belongs to a polygon that is being drawn. Its corners are no setting yet, so Undo does not know them.
+void cornerControls(Region& region, RegionsPanelState& state) {
+    planet::RegionPolygon& corners = state.corners;
+    wrappedText(corners.empty() ? "Click on the globe to set the first corner."
+                                : counted(corners.size(), "corner") + "; click on the globe to add more.",
+                palette().dim);
+    beginGrey(corners.size() < 3, "A polygon has at least three corners.");
+    if (button("Close polygon", "Adds the polygon to the region. Its edges must not cross.")) {
+        const planet::Result<void> closed = closePolygon(corners, region);
+        state.problem = closed ? std::string() : closed.error().message;
+        state.polygon = region.polygons.size() - 1;
+    }
+    endGrey();
+    sameLineForButton("Remove corner");
+    beginGrey(corners.empty(), "There is no corner.");
+    if (button("Remove corner", "Takes back the last corner.")) {
+        corners.pop_back();
+        state.problem.clear();
+    }
+    endGrey();
+}
+
+void brushControls(const EditorView& view, Region& region, RegionsPanelState& state) {
+    RegionBrush& brush = state.brush;
+    choice("Brush", brush.mode, BrushMode::Off, "off\0paint\0erase\0polygon\0",
            "While this panel is shown, dragging with the left button over the picture paints circles of the "
-           "chosen "
-           "region, or erases them. The right button, Alt and the wheel move the camera as before. A stroke "
-           "is one "
-           "step for Undo.");
+           "chosen region, or erases them; a stroke is one step for Undo. With \"polygon\", clicks set the "
+           "corners of a polygon, and dragging moves the camera. The right button, Alt and the wheel always "
+           "move the camera.");
+    if (brush.mode == BrushMode::Polygon) return cornerControls(region, state);
     beginGrey(brush.mode == BrushMode::Off, "The brush is off.");
     lengthSlider("Size", brush.radiusM, 50'000, 1, view.planet->tree().shape.radiusM,
                  "Radius of the circles that the brush paints, and within which it erases.");
@@ -306,9 +341,10 @@ void chosenControls(const EditorView& view, Region& region, RegionsPanelState& s
     effectControls(region);
     if (section("Where")) {
         circleControls(view, region, state, commands);
+        polygonControls(region, state);
         heightControls(region);
     }
-    if (section("Brush")) brushControls(view, state.brush);
+    if (section("Brush")) brushControls(view, region, state);
 }
 
 }  // namespace

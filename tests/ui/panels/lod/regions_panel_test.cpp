@@ -92,5 +92,25 @@ TEST_F(RegionsPanel, savingAsksForTheFileBesideThePlanet) {
     EXPECT_TRUE(commands_[0].as<SaveRegions>()->file.empty());
 }
 
+TEST_F(RegionsPanel, aPolygonIsClosedFromItsCornersAndRemoved) {
+    click("Add");
+    EXPECT_FALSE(window_.isShown("Close polygon"));
+    state_.brush.mode = BrushMode::Polygon;
+    state_.corners = {{0, 0}, {0, 2}, {2, 0}, {2, 2}};
+    frame();
+    click("Close polygon");
+    EXPECT_TRUE(regions()[0].polygons.empty()) << "its edges cross";
+    EXPECT_NE(state_.problem, "");
+    click("Remove corner");
+    EXPECT_EQ(state_.problem, "");
+    click("Close polygon");
+    ASSERT_EQ(regions()[0].polygons.size(), 1u);
+    EXPECT_TRUE(state_.corners.empty());
+    click("Close polygon");
+    EXPECT_EQ(regions()[0].polygons.size(), 1u) << "there are no corners";
+    click("Remove polygon");
+    EXPECT_TRUE(regions()[0].polygons.empty());
+}
+
 }  // namespace
 }  // namespace worldy::ui
