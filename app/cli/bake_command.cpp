@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "app/base/message.h"
 #include "app/base/process_memory.h"
@@ -15,6 +17,7 @@
 #include "app/data/bake_progress.h"
 #include "app/data/bake_ranks.h"
 #include "app/data/worlds.h"
+#include "planet/bake/job/shared_opening.h"
 #include "planet/bake/job/team.h"
 #include "planet/base/stopwatch.h"
 #include "planet/source/colour_source.h"
@@ -29,7 +32,8 @@ struct BakeInputs {
     planet::BakeSettings settings;
     planet::HeightSource source;
     std::optional<planet::ColourSource> colour;
-    double openS = 0;  // how long it took to open them
+    double openS = 0;               // how long it took to open them
+    std::vector<double> surveyS{};  // of it, how long each rank read its part of the samples
 };
 
 double bitsPerSample(const planet::BakeReport& report) {
@@ -46,9 +50,10 @@ std::optional<double> readsPerSample(const planet::HeightSource& source) {
     return static_cast<double>(reads.read) / static_cast<double>(reads.samples);
 }
 
-nlohmann::ordered_json jsonOf(const planet::RankReport& rank) {
+nlohmann::ordered_json jsonOf(const planet::RankReport& rank, double surveyS) {
     return {{"name", rank.name},
             {"threads", rank.threads},
+            {"survey_s", surveyS},
             {"units", rank.units},
             {"samples", rank.samples},
             {"bake_s", rank.bakeS},
@@ -99,7 +104,8 @@ void printJson(const BakeInputs& inputs, const BakeOptions& options, const plane
         json["units"] = job->units;
         json["resumed_units"] = job->resumedUnits;
         json["ranks"] = nlohmann::ordered_json::array();
-        for (const planet::RankReport& rank : job->ranks) json["ranks"].push_back(jsonOf(rank));
+        for (std::size_t i = 0; i < job->ranks.size(); ++i)
+            json["ranks"].push_back(jsonOf(job->ranks[i], inputs.surveyS[i]));
         json["finished_units"] = nlohmann::ordered_json::array();
         for (const planet::SpoolEntry& unit : job->finished)
             json["finished_units"].push_back(
@@ -210,7 +216,9 @@ planet::Result<NamedSource> sourceFrom(const BakeOptions& options) {
     return named;
 }
 
-planet::Result<BakeInputs> openInputs(const BakeOptions& options) {
+// share: of a rank; null if it bakes alone.
+planet::Result<BakeInputs> openInputs(const BakeOptions& options,
+                                      const std::shared_ptr<const planet::SurveyShare>& share = {}) {
     const planet::Stopwatch stopwatch;
     const std::filesystem::path& reuse = options.settings.reuse;
     std::error_code unknown;
@@ -220,14 +228,15 @@ planet::Result<BakeInputs> openInputs(const BakeOptions& options) {
     }
     planet::Result<NamedSource> named = sourceFrom(options);
     if (!named) return tl::unexpected(named.error());
-    planet::Result<planet::HeightSource> source =
-        planet::openHeightSource(named->source, options.sourceSettings);
+    planet::HeightSourceSettings sourceSettings = options.sourceSettings;
+    sourceSettings.share = share;
+    planet::Result<planet::HeightSource> source = planet::openHeightSource(named->source, sourceSettings);
     if (!source) return tl::unexpected(source.error());
     BakeInputs inputs{named->settings, *std::move(source), {}, 0};
     const bool hasOwn = options.colour.empty() && planet::hasColourLayers(named->source);
     if (hasOwn || !options.colour.empty()) {
-        planet::Result<planet::ColourSource> opened =
-            planet::openColourSource(hasOwn ? named->source : options.colour);
+        planet::Result<planet::ColourSource> opened = planet::openColourSource(
+            hasOwn ? named->source : options.colour, planet::defaultColourCacheBytes, share);
         if (!opened) return tl::unexpected(opened.error());
         inputs.colour = *std::move(opened);
     }
@@ -244,7 +253,10 @@ void printReport(const BakeInputs& inputs, const BakeOptions& options, const pla
 planet::Result<void> bakeWithOthers(const BakeOptions& options, planet::Ranks& ranks) {
     planet::Team team(ranks);
     const planet::Result<std::string> program = programBuild();
-    const planet::Result<BakeInputs> inputs = openInputs(options);
+    planet::SharedOpening opening(team, program.value_or(""));
+    planet::Result<BakeInputs> inputs = openInputs(options, opening.share());
+    std::vector<double> surveyS = opening.finish();
+    if (inputs) inputs->surveyS = std::move(surveyS);
     planet::Result<void> ready;
     if (!inputs) ready = tl::unexpected(inputs.error());
     if (!program) ready = tl::unexpected(program.error());

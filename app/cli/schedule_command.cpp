@@ -22,6 +22,7 @@ using planet::Result;
 struct ReportedCosts {
     std::vector<planet::UnitCost> units;
     double openS = 0;
+    double surveyS = 0;
     double joinS = 0;
 };
 
@@ -57,12 +58,18 @@ Result<ReportedCosts> readCosts(const std::filesystem::path& file) {
             return refused("does not say how long it took to begin");
         costs.openS += report[name].get<double>();
     }
+    double longestSurveyS = 0;
     for (const nlohmann::json& rank : report["ranks"]) {
-        if (!rank.is_object() || !isCost(rank.value("join_s", nlohmann::json())) ||
-            !isCost(rank.value("threads", nlohmann::json())))
-            return refused("has a rank that does not say how long it took to join");
-        costs.joinS += rank["join_s"].get<double>() * rank["threads"].get<double>();
+        for (const char* name : {"survey_s", "join_s", "threads"}) {
+            if (!rank.is_object() || !isCost(rank.value(name, nlohmann::json())))
+                return refused("has a rank that does not say how long it read the source and joined");
+        }
+        const double threads = rank["threads"].get<double>();
+        longestSurveyS = std::max(longestSurveyS, rank["survey_s"].get<double>());
+        costs.surveyS += rank["survey_s"].get<double>() * threads;
+        costs.joinS += rank["join_s"].get<double>() * threads;
     }
+    costs.openS = std::max(costs.openS - longestSurveyS, 0.0);
     return costs;
 }
 
@@ -93,7 +100,7 @@ Result<void> runSchedule(const ScheduleOptions& options) {
         const planet::Cluster cluster{
             .ranks = ranks, .threads = options.threads, .bytesPerS = options.megabytesPerS * 1e6};
         const planet::JobSchedule schedule =
-            planet::scheduleJob({costs->units, costs->openS, costs->joinS}, cluster);
+            planet::scheduleJob({costs->units, costs->openS, costs->surveyS, costs->joinS}, cluster);
         report["schedules"].push_back(jsonOf(cluster, schedule));
         if (options.report.json) continue;
         fmt::print("{:>6} {:>10.1f} % {:>11.1f} {:>10.1f} {:>10.1f} {:>10.2f} {:>10.1f} {:>12.1f}\n", ranks,

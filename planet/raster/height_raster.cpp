@@ -7,10 +7,16 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <mutex>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
 #include "planet/base/cpu_clones.h"
+#include "planet/base/error_bytes.h"
+#include "planet/base/little_endian.h"
+#include "planet/base/parallel.h"
+#include "planet/base/stopwatch.h"
 #include "planet/base/try.h"
 
 namespace planet {
@@ -342,20 +348,97 @@ Result<void> HeightRaster::read(const RasterRect& rect, float* out, std::size_t 
     return {};
 }
 
-Result<HeightStatistics> HeightRaster::statistics(const std::stop_token& stop) const {
-    if (statistics_) return *statistics_;
+namespace {
+
+// The statistics that a process has found, or its Error, for the others. size: of the raster, so that processes with different
+// ones notice.
+std::vector<std::byte> surveyBytes(const std::array<std::int64_t, 2>& size,
+                                   const Result<HeightStatistics>& statistics) {
+    std::vector<std::byte> bytes;
+    ByteWriter to(bytes);
+    for (const std::int64_t side : size) to.put(side);
+    to.put(static_cast<std::uint8_t>(statistics.has_value()));
+    if (!statistics) {
+        putError(bytes, statistics.error());
+        return bytes;
+    }
+    to.put(statistics->minM);
+    to.put(statistics->maxM);
+    to.put(statistics->missingCount);
+    return bytes;
+}
+
+// Returns the statistics of all processes together, or the first Error; nothing if one has another raster.
+std::optional<Result<HeightStatistics>> joinedStatistics(const std::array<std::int64_t, 2>& size,
+                                                         std::span<const std::vector<std::byte>> all) {
+    Result<HeightStatistics> joined = HeightStatistics();
+    for (const std::vector<std::byte>& theirs : all) {
+        ByteReader in(theirs);
+        if (theirs.size() < sizeof(size)) return std::nullopt;
+        for (const std::int64_t side : size) {
+            if (in.get<std::int64_t>() != side) return std::nullopt;
+        }
+        if (in.get<std::uint8_t>() == 0) {
+            if (joined) joined = tl::unexpected(takeError(in));
+            continue;
+        }
+        HeightStatistics part;
+        part.minM = in.get<float>();
+        part.maxM = in.get<float>();
+        part.missingCount = in.get<std::uint64_t>();
+        if (joined) addTo(*joined, part);
+    }
+    return joined;
+}
+
+}  // namespace
+
+Result<HeightStatistics> HeightRaster::statisticsOf(const SurveyShare& part,
+                                                    const std::stop_token& stop) const {
+    const int across = (width_ + blocks_.width - 1) / blocks_.width;
+    const int down = (height_ + blocks_.height - 1) / blocks_.height;
     HeightStatistics statistics;
-    std::vector<float> heights;
-    for (int blockY = 0; blockY * blocks_.height < height_; ++blockY) {
-        for (int blockX = 0; blockX * blocks_.width < width_; ++blockX) {
-            if (stop.stop_requested()) return cancelled();
-            TRY_ASSIGN(const auto stored, readStored(blockX, blockY));
-            const RasterRect rect = blockRect(blockX, blockY);
-            heights.resize(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height));
-            addTo(statistics, convertBlock(rect, stored, heights));
+    std::optional<std::pair<std::size_t, Error>> problem;  // of the first block that has one
+    std::mutex mutex;
+    parallelFor(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), [&](std::size_t block) {
+        if (!part.reads(block) || stop.stop_requested()) return;
+        {
+            const std::lock_guard lock(mutex);
+            if (problem && problem->first < block) return;
+        }
+        const int x = static_cast<int>(block) % across;
+        const int y = static_cast<int>(block) / across;
+        const auto stored = readStored(x, y);
+        if (!stored) {
+            const std::lock_guard lock(mutex);
+            if (!problem || block < problem->first) problem = {block, stored.error()};
+            return;
+        }
+        const RasterRect rect = blockRect(x, y);
+        std::vector<float> heights(static_cast<std::size_t>(rect.width) *
+                                   static_cast<std::size_t>(rect.height));
+        const HeightStatistics ofBlock = convertBlock(rect, *stored, heights);
+        const std::lock_guard lock(mutex);
+        addTo(statistics, ofBlock);
+    });
+    if (stop.stop_requested()) return cancelled();
+    if (problem) return tl::unexpected(std::move(problem->second));
+    return statistics;
+}
+
+Result<HeightStatistics> HeightRaster::statistics(const std::stop_token& stop,
+                                                  const SurveyShare* share) const {
+    if (statistics_) return *statistics_;
+    if (share) {
+        const Stopwatch stopwatch;
+        const Result<HeightStatistics> own = statisticsOf(*share, stop);
+        if (!own && own.error().kind == ErrorKind::Cancelled) return own;
+        const std::array<std::int64_t, 2> size = {width_, height_};
+        if (const auto all = share->exchange(surveyBytes(size, own), stopwatch.elapsedS())) {
+            if (auto joined = joinedStatistics(size, *all)) return *std::move(joined);
         }
     }
-    return statistics;
+    return statisticsOf({}, stop);
 }
 
 }  // namespace planet

@@ -135,14 +135,17 @@ public:
     // Copies a rectangle of the grid; its row r starts at out + r * strideSamples.
     Result<void> read(const RasterRect& rect, float* out, std::size_t strideSamples) const;
 
-    // Returns the statistics of all samples. If they are unknown, it reads each sample once, a block at a
-    // time, unless a stop is requested.
-    Result<HeightStatistics> statistics(const std::stop_token& stop = {}) const;
+    // Returns the statistics of all samples. If they are unknown, it reads each sample once, in parallel, unless a stop is
+    // requested; with `share`, each of its processes reads its part.
+    Result<HeightStatistics> statistics(const std::stop_token& stop = {},
+                                        const SurveyShare* share = nullptr) const;
 
 private:
     RasterRect blockRect(int blockX, int blockY) const;  // clipped to the grid
     bool cachesStored() const;  // whether the cache holds samples as the file stores them, and no heights
     Result<std::vector<std::byte>> readStored(int blockX, int blockY) const;
+    // Reads the blocks of a part of so many.
+    Result<HeightStatistics> statisticsOf(const SurveyShare& part, const std::stop_token& stop) const;
     // Returns a block for the cache; its rows have the same number of samples.
     Result<std::vector<std::byte>> loadBlock(int blockX, int blockY) const;
     // Converts the part of a block that lies on the grid; out has as many samples.

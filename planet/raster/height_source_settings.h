@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stop_token>
 
 #include "planet/base/file_calls.h"
+#include "planet/raster/survey_share.h"
 
 namespace planet {
 
@@ -36,6 +38,8 @@ struct HeightSourceSettings {
     FileCalls fileCalls = systemFileCalls();  // for raw faces and the temporary file
     // A request ends the opening of a source, which may read every sample, with an Error of the kind Cancelled.
     std::stop_token stop{};
+    // Of a process that opens the source together with others; null: it reads everything itself.
+    std::shared_ptr<const SurveyShare> share{};
 };
 
 }  // namespace planet

@@ -1,6 +1,7 @@
 #include "planet/raster/raster_area.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -11,7 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "planet/base/error_bytes.h"
+#include "planet/base/little_endian.h"
 #include "planet/base/parallel.h"
+#include "planet/base/stopwatch.h"
 #include "planet/sphere/cube_sphere.h"
 #include "planet/sphere/planet_shape.h"
 
@@ -295,6 +299,142 @@ double commonStepM(const RasterMosaic& mosaic) {
     return same ? first : 0;
 }
 
+// What the blocks of a part hold.
+struct PartSurvey {
+    HeightStatistics statistics;
+    std::uint64_t sampleCount = 0;
+    std::vector<std::uint64_t>
+        covered;                  // as CoveredSquares::indices, of the cells that lie in one block; any order
+    std::vector<SurveyCell> cut;  // ascending
+    std::map<std::size_t, Error> broken;  // by tile
+};
+
+// Reads the blocks of a part of so many.
+PartSurvey surveyPart(const RasterArea& area, const SurveyShare& part, const std::stop_token& stop) {
+    const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
+    PartSurvey survey;
+    std::size_t mostUnsorted = std::size_t{1} << 16;
+    std::mutex mutex;
+    parallelFor(blocks.size(), [&](std::size_t i) {
+        if (!part.reads(i) || stop.stop_requested()) return;
+        const auto& [tileIndex, x, y] = blocks[i];
+        const RasterMosaic::Tile& tile = area.mosaic.tiles()[tileIndex];
+        const RasterLayout& layout = tile.raster->layout();
+        {
+            const std::lock_guard lock(mutex);
+            if (survey.broken.contains(tileIndex)) return;
+        }
+        const int left = x * layout.blockWidth;
+        const int top = y * layout.blockHeight;
+        const GridRect rect{tile.rect.column + left, tile.rect.row + top,
+                            std::min(layout.blockWidth, layout.width - left),
+                            std::min(layout.blockHeight, layout.height - top)};
+        if (tile.raster->isEmpty(x, y)) {
+            const std::lock_guard lock(mutex);
+            const auto samples = static_cast<std::uint64_t>(rect.columns * rect.rows);
+            survey.sampleCount += samples;
+            survey.statistics.missingCount += samples;
+            return;
+        }
+        const Result<std::vector<float>> heights = area.mosaic.readBlock(tileIndex, x, y);
+        if (!heights) {
+            const std::lock_guard lock(mutex);
+            survey.broken.emplace(tileIndex, heights.error());
+            return;
+        }
+        const BlockSurvey block = surveyBlock(rect, *heights);
+        const std::vector<std::uint64_t> squares = squaresOf(area.mosaic, block.whole, area.covered.level);
+        const std::lock_guard lock(mutex);
+        addTo(survey.statistics, block.statistics);
+        survey.sampleCount += heights->size();
+        std::vector<std::uint64_t>& covered = survey.covered;
+        covered.insert(covered.end(), squares.begin(), squares.end());
+        // Neighbouring blocks share squares. Without this, most of the list would be repetitions.
+        if (covered.size() > mostUnsorted) {
+            sortUnique(covered);
+            mostUnsorted = std::max(mostUnsorted, 2 * covered.size());
+        }
+        survey.cut.insert(survey.cut.end(), block.cut.begin(), block.cut.end());
+    });
+    sortUnique(survey.cut);
+    return survey;
+}
+
+// What processes that survey the same area have in common.
+std::array<std::int64_t, 6> identityOf(const RasterArea& area) {
+    const GridRect& bounds = area.mosaic.bounds();
+    return {static_cast<std::int64_t>(area.mosaic.tiles().size()),
+            area.covered.level,
+            bounds.column,
+            bounds.row,
+            bounds.columns,
+            bounds.rows};
+}
+
+std::vector<std::byte> bytesOf(const RasterArea& area, const PartSurvey& survey) {
+    std::vector<std::byte> bytes;
+    ByteWriter to(bytes);
+    for (const std::int64_t number : identityOf(area)) to.put(number);
+    to.put(survey.statistics.minM);
+    to.put(survey.statistics.maxM);
+    to.put(survey.statistics.missingCount);
+    to.put(survey.sampleCount);
+    to.put(static_cast<std::uint64_t>(survey.covered.size()));
+    for (const std::uint64_t square : survey.covered) to.put(square);
+    to.put(static_cast<std::uint64_t>(survey.cut.size()));
+    for (const SurveyCell& cell : survey.cut) {
+        to.put(cell.column);
+        to.put(cell.row);
+    }
+    for (const auto& [tile, error] : survey.broken) {
+        to.put(static_cast<std::uint64_t>(tile));
+        putError(bytes, error);
+    }
+    return bytes;
+}
+
+// Adds what another process has found; returns false if it has another area.
+bool addFrom(const RasterArea& area, std::span<const std::byte> bytes, PartSurvey& survey) {
+    const auto identity = identityOf(area);
+    if (bytes.size() < sizeof(identity)) return false;
+    ByteReader in(bytes);
+    for (const std::int64_t number : identity) {
+        if (in.get<std::int64_t>() != number) return false;
+    }
+    HeightStatistics statistics;
+    statistics.minM = in.get<float>();
+    statistics.maxM = in.get<float>();
+    statistics.missingCount = in.get<std::uint64_t>();
+    addTo(survey.statistics, statistics);
+    survey.sampleCount += in.get<std::uint64_t>();
+    for (auto count = in.get<std::uint64_t>(); count > 0; --count)
+        survey.covered.push_back(in.get<std::uint64_t>());
+    for (auto count = in.get<std::uint64_t>(); count > 0; --count) {
+        const auto column = in.get<std::int64_t>();
+        survey.cut.push_back({column, in.get<std::int64_t>()});
+    }
+    while (!in.rest().empty()) {
+        const auto tile = static_cast<std::size_t>(in.get<std::uint64_t>());
+        survey.broken.emplace(tile, takeError(in));
+    }
+    return true;
+}
+
+// Surveys the blocks of a share, and joins what all processes have found. All of them return the same, but if they cannot
+// survey together, this one reads all blocks.
+PartSurvey surveyTogether(const RasterArea& area, const SurveyShare& share, const std::stop_token& stop) {
+    const Stopwatch stopwatch;
+    PartSurvey own = surveyPart(area, share, stop);
+    if (stop.stop_requested()) return own;
+    sortUnique(own.covered);
+    const auto all = share.exchange(bytesOf(area, own), stopwatch.elapsedS());
+    PartSurvey joined;
+    if (!all || !std::ranges::all_of(*all, [&](const auto& theirs) { return addFrom(area, theirs, joined); }))
+        return surveyPart(area, {}, stop);
+    sortUnique(joined.cut);
+    return joined;
+}
+
 }  // namespace
 
 std::vector<SampleDensity> densitiesAt(const RasterPlacement& placement,
@@ -344,7 +484,7 @@ bool CoveredSquares::meet(const ChunkId& square) const {
     return found != indices.end() && *found - first < (std::uint64_t{1} << shift);
 }
 
-AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
+AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop, const SurveyShare* share) {
     AreaSurvey survey{{.mosaic = std::move(mosaic), .statistics = {}, .tiles = {}, .covered = {}}, {}};
     RasterArea& area = survey.area;
     setTileSpacings(area);
@@ -353,57 +493,15 @@ AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop) {
     area.covered.level =
         std::clamp(static_cast<int>(std::lround(std::log2(area.faceCells))) - cellSamplesLog2, 0, maxLevel);
     area.stepM = commonStepM(area.mosaic);
-    const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
-    std::size_t mostUnsorted = std::size_t{1} << 16;
-    std::vector<SurveyCell> cut;
-    std::map<std::size_t, Error> broken;
-    std::mutex mutex;
-    parallelFor(blocks.size(), [&](std::size_t i) {
-        if (stop.stop_requested()) return;
-        const auto& [tileIndex, x, y] = blocks[i];
-        const RasterMosaic::Tile& tile = area.mosaic.tiles()[tileIndex];
-        const RasterLayout& layout = tile.raster->layout();
-        {
-            const std::lock_guard lock(mutex);
-            if (broken.contains(tileIndex)) return;
-        }
-        const int left = x * layout.blockWidth;
-        const int top = y * layout.blockHeight;
-        const GridRect rect{tile.rect.column + left, tile.rect.row + top,
-                            std::min(layout.blockWidth, layout.width - left),
-                            std::min(layout.blockHeight, layout.height - top)};
-        if (tile.raster->isEmpty(x, y)) {
-            const std::lock_guard lock(mutex);
-            const auto samples = static_cast<std::uint64_t>(rect.columns * rect.rows);
-            area.sampleCount += samples;
-            area.statistics.missingCount += samples;
-            return;
-        }
-        const Result<std::vector<float>> heights = area.mosaic.readBlock(tileIndex, x, y);
-        if (!heights) {
-            const std::lock_guard lock(mutex);
-            broken.emplace(tileIndex, heights.error());
-            return;
-        }
-        const BlockSurvey block = surveyBlock(rect, *heights);
-        const std::vector<std::uint64_t> squares = squaresOf(area.mosaic, block.whole, area.covered.level);
-        const std::lock_guard lock(mutex);
-        addTo(area.statistics, block.statistics);
-        area.sampleCount += heights->size();
-        std::vector<std::uint64_t>& covered = area.covered.indices;
-        covered.insert(covered.end(), squares.begin(), squares.end());
-        // Neighbouring blocks share squares. Without this, most of the list would be repetitions.
-        if (covered.size() > mostUnsorted) {
-            sortUnique(covered);
-            mostUnsorted = std::max(mostUnsorted, 2 * covered.size());
-        }
-        cut.insert(cut.end(), block.cut.begin(), block.cut.end());
-    });
-    sortUnique(cut);
-    const std::vector<std::uint64_t> squares = squaresOf(area.mosaic, cut, area.covered.level);
+    PartSurvey found = share ? surveyTogether(area, *share, stop) : surveyPart(area, {}, stop);
+    if (stop.stop_requested()) return survey;
+    area.statistics = found.statistics;
+    area.sampleCount = found.sampleCount;
+    area.covered.indices = std::move(found.covered);
+    const std::vector<std::uint64_t> squares = squaresOf(area.mosaic, found.cut, area.covered.level);
     area.covered.indices.insert(area.covered.indices.end(), squares.begin(), squares.end());
-    for (auto& [tile, error] : broken) survey.broken.push_back({tile, std::move(error)});
     sortUnique(area.covered.indices);
+    for (auto& [tile, error] : found.broken) survey.broken.push_back({tile, std::move(error)});
     return survey;
 }
 

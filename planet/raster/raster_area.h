@@ -11,6 +11,7 @@
 #include "planet/base/result.h"
 #include "planet/raster/height_raster.h"
 #include "planet/raster/raster_mosaic.h"
+#include "planet/raster/survey_share.h"
 #include "planet/sphere/bounds.h"
 #include "planet/sphere/chunk_id.h"
 
@@ -66,8 +67,10 @@ struct AreaSurvey {
     std::vector<BrokenTile> broken;  // in the order of the tiles
 };
 
-// Reads every sample once but those of empty blocks. When a stop is requested it returns early, and the survey is not whole.
-AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop = {});
+// Reads every sample once but those of empty blocks; with `share`, each of its processes reads its part of the blocks. When a
+// stop is requested it returns early, and the survey is not whole.
+AreaSurvey surveyArea(RasterMosaic mosaic, const std::stop_token& stop = {},
+                      const SurveyShare* share = nullptr);
 
 // The number of samples in a radian along each axis of a grid.
 struct SampleDensity {

@@ -45,12 +45,14 @@ bool hasColourLayers(const std::filesystem::path& path) {
     return world && !layersOn(world->colours).empty();
 }
 
-Result<ColourSource> openColourSource(const std::filesystem::path& path, std::size_t cacheBytes) {
+Result<ColourSource> openColourSource(const std::filesystem::path& path, std::size_t cacheBytes,
+                                      const std::shared_ptr<const SurveyShare>& share) {
     Channels channels;
     for (int channel = 0; channel < channelCount; ++channel) {
         HeightSourceSettings settings;
         settings.colourChannel = channel;
         settings.cacheBytes = cacheBytes / channelCount;
+        settings.share = share;
         TRY_ASSIGN(channels[static_cast<std::size_t>(channel)], openHeightSource(path, settings));
     }
     ColourSource source;

@@ -11,10 +11,12 @@
 #include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <string>
 
 #include "planet/base/result.h"
+#include "planet/raster/survey_share.h"
 #include "planet/source/height_source_types.h"
 
 namespace planet {
@@ -42,8 +44,9 @@ bool hasColourLayers(const std::filesystem::path& path);
 
 inline constexpr std::size_t defaultColourCacheBytes = 192u << 20;
 
-// Opens a source. cacheBytes: memory limit for the image. The Error names the file.
+// Opens a source. cacheBytes: memory limit for the image. share: as in HeightSourceSettings. The Error names the file.
 Result<ColourSource> openColourSource(const std::filesystem::path& path,
-                                      std::size_t cacheBytes = defaultColourCacheBytes);
+                                      std::size_t cacheBytes = defaultColourCacheBytes,
+                                      const std::shared_ptr<const SurveyShare>& share = {});
 
 }  // namespace planet

@@ -511,7 +511,7 @@ Result<HeightSource> openEquirectangularSource(const std::filesystem::path& path
     const RasterMemory memory{std::make_shared<StoredBlockCache>(settings.cacheBytes), 0,
                               settings.cacheBytes};
     TRY_ASSIGN(const auto image, openImageRaster(file, conversion, memory, settings.fileCalls));
-    TRY_ASSIGN(const auto statistics, image.statistics(settings.stop));
+    TRY_ASSIGN(const auto statistics, image.statistics(settings.stop, settings.share.get()));
 
     HeightSource source;
     source.description = fmt::format("{}, {} x {} {}, {}", path.filename().string(), layout.width,

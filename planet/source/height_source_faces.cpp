@@ -439,11 +439,11 @@ Result<SourceReading> nearestSample(const FaceSet& set,
 }
 
 Result<HeightSource> describeFaces(const FaceFiles& files, const FaceFormat& format,
-                                   const HeightConversion& conversion, const std::stop_token& stop,
+                                   const HeightConversion& conversion, const HeightSourceSettings& settings,
                                    FaceSet set, FaceEdges edges) {
     HeightStatistics statistics;
     for (const HeightRaster& face : set.faces) {
-        TRY_ASSIGN(const auto part, face.statistics(stop));
+        TRY_ASSIGN(const auto part, face.statistics(settings.stop, settings.share.get()));
         addTo(statistics, part);
     }
     set.size = format.size;
@@ -505,7 +505,7 @@ Result<HeightSource> openFaceSource(const FaceFiles& files, const HeightSourceSe
                                        settings.fileCalls)
                        : openImageRaster(images[face], conversion, memory, settings.fileCalls));
     }
-    return describeFaces(files, format, conversion, settings.stop, std::move(set), edges);
+    return describeFaces(files, format, conversion, settings, std::move(set), edges);
 }
 
 }  // namespace planet

@@ -150,14 +150,15 @@ Error liesNowhere(const Raster& raster) {
 // Joins and surveys rasters. Moves those that cannot be read or lie nowhere to the broken ones.
 Result<std::vector<RasterArea>> surveyed(std::vector<OpenRaster>& rasters,
                                          const std::shared_ptr<MosaicCache>& cache,
-                                         const std::stop_token& stop, std::vector<BrokenFile>& broken) {
+                                         const HeightSourceSettings& settings,
+                                         std::vector<BrokenFile>& broken) {
     std::vector<std::shared_ptr<const Raster>> whole;
     for (const OpenRaster& raster : rasters) whole.push_back(raster.raster);
     TRY_ASSIGN(auto mosaics, RasterMosaic::join(whole, cache));
     std::vector<RasterArea> areas;
     for (RasterMosaic& mosaic : mosaics) {
-        AreaSurvey survey = surveyArea(std::move(mosaic), stop);
-        if (stop.stop_requested()) return cancelled();
+        AreaSurvey survey = surveyArea(std::move(mosaic), settings.stop, settings.share.get());
+        if (settings.stop.stop_requested()) return cancelled();
         const std::vector<RasterMosaic::Tile>& tiles = survey.area.mosaic.tiles();
         const auto remove = [&](std::size_t tile, Error error) {
             const auto found = std::ranges::find(rasters, tiles[tile].raster, &OpenRaster::raster);
@@ -191,7 +192,7 @@ Result<RasterAreas> openRasterAreas(
     // Without the broken rasters, the others are joined and surveyed again.
     for (bool done = rasters.empty(); !done;) {
         const std::size_t count = rasters.size();
-        TRY_ASSIGN(found.areas, surveyed(rasters, cache, settings.stop, broken));
+        TRY_ASSIGN(found.areas, surveyed(rasters, cache, settings, broken));
         done = rasters.size() == count || rasters.empty() || !settings.skipBroken;
     }
     std::ranges::sort(broken, {}, &BrokenFile::number);

@@ -55,7 +55,7 @@ JobSchedule scheduleJob(const JobCosts& costs, const Cluster& cluster) {
         ranks.push({rank.untilS + secondsOf(rank.next), shares.next()});
     }
     JobSchedule schedule;
-    schedule.openS = costs.openS;
+    schedule.openS = costs.openS + costs.surveyS / (cluster.ranks * threads);
     schedule.idleS = bakeS - busyS / cluster.ranks;
     const double spoolS = std::max(0.0, bytes / cluster.bytesPerS - bakeS);
     schedule.bakeS = bakeS + spoolS;

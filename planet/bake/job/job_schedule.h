@@ -15,7 +15,8 @@ struct UnitCost {
 struct JobCosts {
     std::span<const UnitCost> units;  // in their order
     double openS = 0;                 // opening the source and planning, which each rank does for itself
-    double joinS = 0;                 // of one thread, to put all units together, without reading and writing
+    double surveyS = 0;  // of one thread, to read the source for its range, which the ranks share
+    double joinS = 0;    // of one thread, to put all units together, without reading and writing
 };
 
 // The machines.
@@ -29,7 +30,7 @@ struct Cluster {
 // The seconds from the beginning to the end. All but bakeS is what keeps the efficiency below 1.
 struct JobSchedule {
     double totalS = 0;
-    double openS = 0;
+    double openS = 0;  // with the share of the survey
     double bakeS = 0;  // until the last rank has no more units
     double idleS = 0;  // of bakeS, in which a rank had no units, on average
     double joinS = 0;

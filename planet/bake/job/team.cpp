@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "planet/base/error_bytes.h"
 #include "planet/base/little_endian.h"
 #include "planet/base/stopwatch.h"
 
@@ -51,21 +52,15 @@ std::uint64_t Team::sumOf(std::uint64_t value) {
 
 Result<void> Team::agree(const Result<void>& own) {
     std::vector<std::byte> bytes;
-    if (!own) {
-        const Error error = namedError(*this, own.error());
-        bytes.push_back(static_cast<std::byte>(error.kind));
-        const auto message = std::as_bytes(std::span(error.message));
-        bytes.insert(bytes.end(), message.begin(), message.end());
-    }
+    if (!own) putError(bytes, namedError(*this, own.error()));
     Result<void> outcome;
     for (const std::vector<std::byte>& other : tellAll(bytes)) {
         if (other.empty()) continue;
-        const auto kind = static_cast<ErrorKind>(other[0]);
-        if (!outcome && (kind == ErrorKind::Cancelled || outcome.error().kind != ErrorKind::Cancelled))
+        ByteReader in(other);
+        Error error = takeError(in);
+        if (!outcome && (error.kind == ErrorKind::Cancelled || outcome.error().kind != ErrorKind::Cancelled))
             continue;
-        const auto message = std::span(other).subspan(1);
-        outcome = tl::unexpected(
-            Error{kind, std::string(reinterpret_cast<const char*>(message.data()), message.size())});
+        outcome = tl::unexpected(std::move(error));
     }
     return outcome;
 }

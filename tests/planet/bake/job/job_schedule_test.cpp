@@ -48,10 +48,11 @@ TEST(JobSchedule, ALongUnitIsSeen) {
 
 TEST(JobSchedule, WhatEachRankDoesForItselfDoesNotShrink) {
     const std::vector<UnitCost> costs(1000, {1.0, 0});
-    const JobSchedule schedule = scheduleJob({costs, 10, 50}, {.ranks = 100, .answerS = 0});
-    EXPECT_DOUBLE_EQ(schedule.openS, 10);
+    const JobSchedule schedule =
+        scheduleJob({.units = costs, .openS = 10, .surveyS = 200, .joinS = 50}, {.ranks = 100, .answerS = 0});
+    EXPECT_DOUBLE_EQ(schedule.openS, 10 + 2);
     EXPECT_DOUBLE_EQ(schedule.joinS, 0.5);
-    EXPECT_NEAR(schedule.efficiency, 10 / (10 + 10 + 0.5), 0.02);
+    EXPECT_NEAR(schedule.efficiency, 10 / (10 + 12 + 0.5), 0.02);
 }
 
 TEST(JobSchedule, ASlowFileSystemBoundsTheJob) {
