@@ -58,7 +58,9 @@ void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsC
         tintsOf(scene, shown, settings, input.tints, instruments.errors);
     content.tints = tints;
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
-    content.frontLines = focusLines(scene.planet->tree(), input.focus, content.view);
+    ChunkFocus focus = input.focus;
+    if (input.draft) focus.hovered.reset();  // its outline would look like a part of the draft
+    content.frontLines = focusLines(scene.planet->tree(), focus, content.view);
     appendOutlines(input, content);
     appendRuler(instruments.ruler, scene, content);
     drawPicture(viewport, viewport.main, scene, settings, content, log);

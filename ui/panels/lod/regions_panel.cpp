@@ -271,14 +271,16 @@ void circleControls(const EditorView& view, Region& region, RegionsPanelState& s
 void polygonControls(Region& region, RegionsPanelState& state) {
     if (region.polygons.empty()) return;
     const std::size_t last = region.polygons.size() - 1;
-    int number = static_cast<int>(std::min(state.polygon, last)) + 1;
-    const std::string format =
-        fmt::format("%d of {}, {}", last + 1,
-                    counted(region.polygons[static_cast<std::size_t>(number) - 1].size(), "corner"));
-    slider("Polygon", number, 1, 1, static_cast<int>(last) + 1, format.c_str(),
-           "The polygon that the button below removes. Its corners are in the file.");
-    state.polygon = static_cast<std::size_t>(std::clamp<int>(number, 1, static_cast<int>(last) + 1) - 1);
-    if (button("Remove polygon", "Removes the polygon above."))
+    state.polygon = std::min(state.polygon, last);
+    if (last > 0) {
+        int number = static_cast<int>(state.polygon) + 1;
+        const std::string format =
+            fmt::format("%d of {}, {}", last + 1, counted(region.polygons[state.polygon].size(), "corner"));
+        slider("Polygon", number, 1, 1, static_cast<int>(last) + 1, format.c_str(),
+               "The polygon that the button below removes. Its corners are in the file.");
+        state.polygon = static_cast<std::size_t>(std::clamp(number, 1, static_cast<int>(last) + 1) - 1);
+    }
+    if (button("Remove polygon", last > 0 ? "Removes the polygon above." : "Removes the region's polygon."))
         region.polygons.erase(region.polygons.begin() + static_cast<std::ptrdiff_t>(state.polygon));
 }
 
