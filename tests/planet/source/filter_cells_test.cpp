@@ -12,15 +12,16 @@
 namespace planet {
 namespace {
 
-// Compares every fourth sample of a fine grid with the same places of a coarser one, on the edges of a face
-// and inside it.
-void expectSameAtSharedPlaces(const HeightSource& source, const std::string& name) {
-    constexpr int coarse = 256;
-    constexpr int fine = 1024;
+// Compares every fourth sample of a fine grid with the same places of a coarser one of so many cells, on the edges of a
+// face and inside it.
+void expectSameAtSharedPlaces(const HeightSource& source, const std::string& name, int coarse = 256) {
+    constexpr int side = 37;
+    const int fine = 4 * coarse;
+    const int last = coarse - side + 1;
     int differ = 0;
     for (const Face face : {Face::PosX, Face::NegY, Face::PosZ}) {
-        for (const auto& [column, row] : {std::pair{0, 0}, std::pair{95, 40}, std::pair{220, 220}}) {
-            constexpr int side = 37;
+        for (const auto& [column, row] :
+             {std::pair{0, 0}, std::pair{95 * last / 220, 40 * last / 220}, std::pair{last, last}}) {
             const SampleTile tile{face, coarse, column, row, side, side, fine};
             const SampleTile finer{face, fine, 4 * column, 4 * row, 4 * (side - 1) + 1, 4 * (side - 1) + 1};
             const auto shared = sampled(source, tile);
@@ -59,7 +60,9 @@ TEST(FilterCells, MakeTheHeightsOfACoarseGridOfAFileThoseOfAFinerOne) {
 }
 
 TEST(FilterCells, MakeTheHeightsOfACoarseGridOfFacesThoseOfAFinerOne) {
-    for (const int size : {129, 2049, 700}) {
+    constexpr int coarse = 64;
+    // The finer grid has 256 cells: two samples stand in each, or fewer than one.
+    for (const int size : {33, 513, 175}) {
         const TemporaryFolder folder;
         for (const Face face : allFaces) {
             writeImage(folder / ("face_" + std::string(faceName(face)) + ".png"),
@@ -74,7 +77,7 @@ TEST(FilterCells, MakeTheHeightsOfACoarseGridOfFacesThoseOfAFinerOne) {
         }
         const auto faces = openHeightSource(folder / "face_x_pos.png", {});
         ASSERT_TRUE(faces) << faces.error().message;
-        expectSameAtSharedPlaces(*faces, std::to_string(size));
+        expectSameAtSharedPlaces(*faces, std::to_string(size), coarse);
     }
 }
 
