@@ -26,7 +26,7 @@ namespace {
 
 using test::sparsePlanet;
 
-const ChunkTree& wholeTree() {
+const ChunkTree& sparseTree() {
     static const ChunkTree tree = sparsePlanet().wholeTree();
     return tree;
 }
@@ -41,7 +41,7 @@ View viewAt(const glm::dvec3& cube, double altitudeM, double headingDeg = 60, do
                          .altitudeM = altitudeM,
                          .headingDeg = headingDeg,
                          .pitchDeg = pitchDeg},
-                        wholeTree().shape.radiusM, 1.1, 640, 400);
+                        sparseTree().shape.radiusM, 1.1, 640, 400);
 }
 
 FacePoint placeAt(const glm::dvec3& cube) {
@@ -67,8 +67,8 @@ TEST(SparsePlanet, hasLeavesOnSeveralLevels) {
     const ChunkFileInfo& info = sparsePlanet().file->info();
     EXPECT_EQ(deepestLevelOf(info.shape), 9);
     EXPECT_EQ(info.coarsestLeafLevel, 5);
-    EXPECT_EQ(wholeTree().residentChunks, info.chunks);
-    EXPECT_TRUE(isSparse(wholeTree()));
+    EXPECT_EQ(sparseTree().residentChunks, info.chunks);
+    EXPECT_TRUE(isSparse(sparseTree()));
     const auto report = verifyFile(*sparsePlanet().file, nullptr);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->problemCount, 0u) << report->problems.front();
@@ -161,7 +161,7 @@ double largestFacingPx(const ChunkTree& tree, const DrawItem& item, const View& 
 }
 
 TEST(SparsePlanet, trueErrorIsThatOfTheSamplesOfAllLeaves) {
-    const ChunkTree& tree = wholeTree();
+    const ChunkTree& tree = sparseTree();
     int mixed = 0;
     int i = 0;
     for (const glm::dvec3& rim : rims) {
@@ -206,8 +206,8 @@ TEST(SparsePlanet, nothingDrawnIsFurtherOffThanItsBound) {
         const View view =
             viewAt(rims[static_cast<std::size_t>(i) % rims.size()],
                    std::exp(std::uniform_real_distribution<double>(7.8, 13)(random)), turn(random));
-        const Selection selection = selected(wholeTree(), view, settings);
-        const TrueErrorReport report = measured(snapshotOf(wholeTree(), selection.draw, view, false));
+        const Selection selection = selected(sparseTree(), view, settings);
+        const TrueErrorReport report = measured(snapshotOf(sparseTree(), selection.draw, view, false));
         EXPECT_EQ(report.violations, 0u) << i;
         samples += report.samples;
     }
@@ -222,23 +222,23 @@ TEST(SparsePlanet, fadesAcrossARimStayWithinTheBound) {
     double altitudeM = 60'000;
     for (int frame = 0; frame < 60; ++frame, altitudeM *= 0.93) {
         const View view = viewAt(rims[0], altitudeM, 20, -60);
-        selectChunks(wholeTree(), view, settings, selection, 0.05);
+        selectChunks(sparseTree(), view, settings, selection, 0.05);
         if (frame % 6 != 0) continue;
-        const TrueErrorReport report = measured(snapshotOf(wholeTree(), selection.draw, view, false));
+        const TrueErrorReport report = measured(snapshotOf(sparseTree(), selection.draw, view, false));
         EXPECT_EQ(report.violations, 0u) << frame;
     }
 }
 
 TEST(SparsePlanet, aRayHitsTheLeafOfItsPlace) {
     const View view = viewAt({0.2503, 0.14, 1}, 8000, 0, -90);
-    const Selection selection = selected(wholeTree(), view, suddenLod(1e-3));
+    const Selection selection = selected(sparseTree(), view, suddenLod(1e-3));
     int coarse = 0;
     int fine = 0;
     for (int i = -20; i <= 20; ++i) {
         const glm::dvec3 direction = -view.back + 0.01 * i * view.right;
-        const auto hit = pickSurface(wholeTree(), selection.draw, view.eyeM, direction);
+        const auto hit = pickSurface(sparseTree(), selection.draw, view.eyeM, direction);
         ASSERT_TRUE(hit);
-        const double groundM = residentHeightM(wholeTree(), hit->positionM) + wholeTree().shape.radiusM;
+        const double groundM = residentHeightM(sparseTree(), hit->positionM) + sparseTree().shape.radiusM;
         EXPECT_NEAR(glm::length(hit->positionM), groundM, 1e-3) << i << " " << toString(hit->id);
         coarse += hit->id.level == 5;
         fine += hit->id.level == 9;
@@ -254,10 +254,10 @@ protected:
     NormalDeriver deriver() const {
         std::array<HeldChunk, faceCount> roots;
         for (std::size_t face = 0; face < faceCount; ++face) {
-            const ChunkNode& root = wholeTree().nodes[face];
+            const ChunkNode& root = sparseTree().nodes[face];
             roots[face] = {root.id, root.heights, root.children};
         }
-        return {wholeTree().storedShape, roots,
+        return {sparseTree().storedShape, roots,
                 [](const ChunkId& parent, BlockLocation location, StepsView heights) {
                     return sparsePlanet().file->readChildren(parent, location, heights);
                 }};
@@ -266,7 +266,7 @@ protected:
 
 TEST_F(SparseNormals, endWhereNoHeightsAreFiner) {
     NormalDeriver normals = deriver();
-    EXPECT_EQ(normalLeafLevel(wholeTree().shape), 5);
+    EXPECT_EQ(normalLeafLevel(sparseTree().shape), 5);
     const std::vector<test::FineBox> patches = test::rimPatches(16 << 9);
     // Tiles of level 1 have the grid of chunks of level 5.
     for (int q = 0; q < quadrantCount; ++q) {
@@ -286,7 +286,7 @@ TEST_F(SparseNormals, areThoseOfADensePlanetWhereHeightsAreFine) {
     const ChunkId id = chunkAt(placeAt({0.26, 0.14, 1}), 5);
     const TileData tile = normals.tile(id).value();
     const int cells = tileCells << 5;
-    const PlanetShape& shape = wholeTree().storedShape;
+    const PlanetShape& shape = sparseTree().storedShape;
     int compared = 0;
     for (int j = tileBorderBefore + 2; j < tileTexels - 20; j += 7) {
         for (int i = tileBorderBefore + 2; i < tileTexels - 20; i += 5) {
@@ -336,7 +336,7 @@ TEST_F(SparseNormals, betweenTheVerticesOfACoarseLeafAreItsOwnSlopes) {
     const glm::dvec3 half{coarseCell / 2, 0, 0};
     const double riseM =
         test::roughM(sphereFromCube(cube + half)) - test::roughM(sphereFromCube(cube - half));
-    const double expected = riseM / coarseCell / wholeTree().storedShape.radiusM;
+    const double expected = riseM / coarseCell / sparseTree().storedShape.radiusM;
     EXPECT_GT(std::abs(expected), 0.01);
     EXPECT_NEAR(slope, expected, 1e-3 * std::abs(expected) + 1e-6);
 }

@@ -56,9 +56,9 @@ void expectGoesOn(const TemporaryFolder& folder) {
     EXPECT_THAT(refused.errors, HasSubstr("add --resume to go on with them, or remove the folder"));
     const Ran resumed = runShell(folder, ranks(2) + bake(slowBake) + "--resume --json");
     ASSERT_EQ(resumed.exitCode, 0) << resumed.errors;
-    const auto json = nlohmann::json::parse(resumed.output);
-    EXPECT_GT(json["resumed_units"], 0);
-    EXPECT_LT(json["resumed_units"], json["units"]);
+    const auto report = nlohmann::json::parse(resumed.output);
+    EXPECT_GT(report["resumed_units"], 0);
+    EXPECT_LT(report["resumed_units"], report["units"]);
     ASSERT_EQ(runShell(folder, "mv a.chk job.chk && " + bake(slowBake)).exitCode, 0);
     EXPECT_TRUE(contentOf(folder / "a.chk") == contentOf(folder / "job.chk"));
     EXPECT_FALSE(fs::exists(folder / "a.chk.spool"));
@@ -75,17 +75,17 @@ TEST(MpiBake, anyNumberOfRanksGivesTheBytesOfABakeAlone) {
             const Ran ran = runShell(folder, ranks(count) + bake(source) + "-o job.chk --overwrite --json");
             ASSERT_EQ(ran.exitCode, 0) << ran.errors;
             EXPECT_TRUE(contentOf(folder / "job.chk") == contentOf(folder / "alone.chk")) << source << count;
-            const auto json = nlohmann::json::parse(ran.output);
-            ASSERT_EQ(json["ranks"].size(), static_cast<std::size_t>(count));
+            const auto report = nlohmann::json::parse(ran.output);
+            ASSERT_EQ(report["ranks"].size(), static_cast<std::size_t>(count));
             std::uint64_t units = 0;
-            for (const auto& rank : json["ranks"]) {
+            for (const auto& rank : report["ranks"]) {
                 units += rank["units"].get<std::uint64_t>();
                 EXPECT_THAT(rank["name"], testing::StartsWith("rank "));
                 EXPECT_EQ(rank["threads"], 1);
                 EXPECT_GT(rank["peak_memory_bytes"], 1 << 20);
             }
-            EXPECT_EQ(units, json["units"]);
-            EXPECT_EQ(json["finished_units"].size(), json["units"]);
+            EXPECT_EQ(units, report["units"]);
+            EXPECT_EQ(report["finished_units"].size(), report["units"]);
         }
     }
 }

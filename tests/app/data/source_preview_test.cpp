@@ -23,7 +23,7 @@ PreviewRequest requestOf(const char* source, int zoomLog2 = 0, double u = 0, dou
     return request;
 }
 
-std::array<int, 3> pixelOf(const PreviewPicture& picture, int column, int row) {
+std::array<int, 3> colourAt(const PreviewPicture& picture, int column, int row) {
     const auto at = static_cast<std::size_t>(4 * (row * previewSidePx + column));
     return {picture.rgba[at], picture.rgba[at + 1], picture.rgba[at + 2]};
 }
@@ -53,9 +53,9 @@ TEST(SourcePreview, NorthIsUpSeaIsBlueAndTheSunStandsUpperLeft) {
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->rgba.size(), std::size_t{4} * previewSidePx * previewSidePx);
     EXPECT_GT(picture->highM, 2900);
-    const auto seaPixel = pixelOf(*picture, 128, 200);
+    const auto seaPixel = colourAt(*picture, 128, 200);
     EXPECT_GT(seaPixel[2], seaPixel[0] + 40);
-    const auto west = pixelOf(*picture, 124, 60), east = pixelOf(*picture, 132, 60);
+    const auto west = colourAt(*picture, 124, 60), east = colourAt(*picture, 132, 60);
     EXPECT_GT(west[0], east[0] + 20);
     EXPECT_GE(west[0], west[2]);
 }
@@ -64,7 +64,8 @@ TEST(SourcePreview, FlatGroundHasOneColour) {
     const auto source = planet::test::formulaSource([](const glm::dvec3&) { return 100.0; }, 100, 100);
     const auto picture = drawPreview(source, requestOf("formula"));
     ASSERT_TRUE(picture);
-    for (const int at : {0, 77, 255}) EXPECT_EQ(pixelOf(*picture, at, 255 - at), pixelOf(*picture, 128, 128));
+    for (const int at : {0, 77, 255})
+        EXPECT_EQ(colourAt(*picture, at, 255 - at), colourAt(*picture, 128, 128));
     EXPECT_EQ(picture->lowM, 100);
 }
 

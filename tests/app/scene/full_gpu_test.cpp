@@ -26,12 +26,12 @@ struct TextureCalls {
 };
 
 TextureCalls realCalls;
-int allocations = 0;
+int texturesAsked = 0;
 int refusedAllocation = 0;  // which, counted from 1; 0: none
 bool outOfMemory = false;
 
 bool isRefused() {
-    const bool now = ++allocations == refusedAllocation;
+    const bool now = ++texturesAsked == refusedAllocation;
     outOfMemory = outOfMemory || now;
     return now;
 }
@@ -41,7 +41,7 @@ class FullGpu {
 public:
     explicit FullGpu(int refused) {
         realCalls = {};
-        allocations = 0;
+        texturesAsked = 0;
         refusedAllocation = refused;
         outOfMemory = false;
         epoxy_glTexImage2D = [](auto... arguments) {
@@ -119,9 +119,9 @@ protected:
         drawn.problems = takeProblems(*scene);
         drawn.clipmapProblem = statsOf(*scene).clipmap.problem;
         // Told once, and not tried again in each picture.
-        const int before = allocations;
+        const int before = texturesAsked;
         drawScene(*scene, view_, settings_);
-        EXPECT_EQ(allocations, before);
+        EXPECT_EQ(texturesAsked, before);
         EXPECT_THAT(takeProblems(*scene), testing::IsEmpty());
         // Nor is anything read that cannot be drawn.
         settleScene(*scene, view_, settings_, 60);
@@ -146,7 +146,7 @@ TEST_F(FullGpuScene, drawsWhatFitsAndSaysWhatDoesNot) {
     {
         const FullGpu counted(0);
         EXPECT_EQ(draw().rgb, whole.rgb);
-        calls = allocations;
+        calls = texturesAsked;
     }
     EXPECT_GT(calls, 15);
     int refusals = 0, told = 0;

@@ -129,7 +129,7 @@ struct Flown {
 };
 
 Flown descents(const ChunkTree& tree, const LodSettings& settings) {
-    constexpr double frameS = 1.0 / 60;
+    constexpr double stepS = 1.0 / 60;
     PopMeter meter;
     double timeS = 0;
     Flown flown;
@@ -143,8 +143,8 @@ Flown descents(const ChunkTree& tree, const LodSettings& settings) {
         };
         Selection selection;
         for (int i = 0; i < 900; ++i) {
-            selectChunks(tree, viewAt(i), settings, selection, frameS);
-            meter.add(tree, selection, viewAt(i), settings, timeS += frameS, {.cameraJumped = i == 0});
+            selectChunks(tree, viewAt(i), settings, selection, stepS);
+            meter.add(tree, selection, viewAt(i), settings, timeS += stepS, {.cameraJumped = i == 0});
             float least = 1e9f;
             float most = 0;
             for (const DrawItem& item : selection.draw) {

@@ -136,10 +136,10 @@ TEST(GeometricError, partOfAFinerGridHasTheSameBits) {
     const Grid any(top);
     const std::size_t cells = any.side() - 1;
     const std::size_t side = (cells << (levels - 1)) + 1;
-    std::vector<std::int16_t> finest(side * side);
-    for (std::int16_t& step : finest) step = static_cast<std::int16_t>(height(random));
+    std::vector<std::int16_t> finestSteps(side * side);
+    for (std::int16_t& step : finestSteps) step = static_cast<std::int16_t>(height(random));
     GeometricErrorScratch positions;
-    facePositions(any.shape, faceSquareOf(top), side, finest, positions);
+    facePositions(any.shape, faceSquareOf(top), side, finestSteps, positions);
     for (int below = 0; below < levels; ++below) {
         const std::size_t stride = std::size_t{1} << (levels - 1 - below);
         for (std::uint32_t y = 0; y < 1u << below; ++y) {
@@ -149,8 +149,8 @@ TEST(GeometricError, partOfAFinerGridHasTheSameBits) {
                 const RefinedSquare square{x * cells * stride, y * cells * stride, stride, cells};
                 for (std::size_t j = 0; j <= cells; ++j) {
                     for (std::size_t i = 0; i <= cells; ++i) {
-                        own.steps[j * own.side() + i] =
-                            finest[(square.firstRow + j * stride) * side + square.firstColumn + i * stride];
+                        own.steps[j * own.side() + i] = finestSteps[(square.firstRow + j * stride) * side +
+                                                                    square.firstColumn + i * stride];
                     }
                 }
                 EXPECT_EQ(geometricErrorOnGridM(positions, side, square), own.error()) << toString(own.chunk);

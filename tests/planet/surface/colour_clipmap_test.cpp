@@ -111,8 +111,8 @@ TEST(ColourClipmap, WindowsHoldWhatMayBeDrawnFromThem) {
         const double spread = std::exp2(between(random, -9, 0));
         const FacePoint point = facePointFromDirection(eye + spread * anyDirection(random));
         const glm::dvec2 place((point.u + 1) / 2, (point.v + 1) / 2);
-        const double finest = clipmapFinest(layout, clipmapDistance(centre, point.face, place));
-        const int level = static_cast<int>(std::ceil(finest));
+        const double finestLevel = clipmapFinest(layout, clipmapDistance(centre, point.face, place));
+        const int level = static_cast<int>(std::ceil(finestLevel));
         ++seen[level];
         if (level <= layout.wholeLevel) continue;
         const TexelRect window = clipmapWindow(layout, centre, point.face, level);

@@ -15,10 +15,10 @@
 namespace worldy::ui {
 namespace {
 
-constexpr double radiusM = 6'371'000;
+constexpr double earthRadiusM = 6'371'000;
 
 planet::View viewFrom(const planet::CameraPose& pose) {
-    return planet::viewFromPose(pose, radiusM, 1.0, 1000, 600);
+    return planet::viewFromPose(pose, earthRadiusM, 1.0, 1000, 600);
 }
 Note noteAt(double latitudeDeg, double longitudeDeg, double heightM = 0) {
     Note note;
@@ -28,7 +28,7 @@ Note noteAt(double latitudeDeg, double longitudeDeg, double heightM = 0) {
     return note;
 }
 std::optional<glm::dvec2> pinOf(const planet::View& view, const Note& note) {
-    return pinInPicture(view, placeOfNote(note, radiusM, 1), radiusM);
+    return pinInPicture(view, placeOfNote(note, earthRadiusM, 1), earthRadiusM);
 }
 
 TEST(NotePins, thePlaceBelowTheCameraIsInTheMiddle) {
@@ -62,7 +62,7 @@ TEST(NotePins, whatIsBehindTheCameraOrOutsideThePictureHasNoPin) {
 }
 
 TEST(NotePins, exaggerationLiftsThePlace) {
-    EXPECT_NEAR(glm::length(placeOfNote(noteAt(20, 10, 1000), radiusM, 3)), radiusM + 3000, 1e-6);
+    EXPECT_NEAR(glm::length(placeOfNote(noteAt(20, 10, 1000), earthRadiusM, 3)), earthRadiusM + 3000, 1e-6);
 }
 
 // A planet of six chunks, flat but for a wall along the meridian 0, which falls to both sides within a cell.

@@ -10,13 +10,13 @@
 namespace planet {
 namespace {
 
-constexpr PlanetShape shape{.faceCellsLog2 = 10, .chunkCellsLog2 = 4};
+constexpr PlanetShape jobShape{.faceCellsLog2 = 10, .chunkCellsLog2 = 4};
 
 Subtree someSubtree() {
     Subtree subtree;
     subtree.root.id = {Face::NegY, 3, 5, 2};
     subtree.root.entry = {12.5F, 7.25F, -300, 4000, {provisionalOrigin + 99, 1234}};
-    for (int i = 0; i < chunkVertexCount(shape); ++i) subtree.root.heights.push_back(i - 100);
+    for (int i = 0; i < chunkVertexCount(jobShape); ++i) subtree.root.heights.push_back(i - 100);
     subtree.bytes = 1333;
     subtree.deepestUnitLevel = 5;
     subtree.offAboveM = {1.5, 0.25};
@@ -36,7 +36,7 @@ TEST(JobBytes, ASubtreeComesBackAsItWas) {
     std::vector<std::byte> bytes = bytesOf(subtree);
     bytes.push_back(std::byte{7});
     std::span<const std::byte> rest = bytes;
-    const auto taken = takeSubtree(rest, shape);
+    const auto taken = takeSubtree(rest, jobShape);
     ASSERT_TRUE(taken) << taken.error().message;
     EXPECT_EQ(rest.size(), 1u);
     EXPECT_EQ(taken->root.id, subtree.root.id);
@@ -55,7 +55,7 @@ TEST(JobBytes, TruncatedBytesAreRefused) {
     const std::vector<std::byte> bytes = bytesOf(someSubtree());
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         std::span<const std::byte> part = std::span(bytes).first(size);
-        EXPECT_FALSE(takeSubtree(part, shape)) << size;
+        EXPECT_FALSE(takeSubtree(part, jobShape)) << size;
     }
 }
 
@@ -65,7 +65,7 @@ TEST(JobBytes, ChunksThatCannotBeAreRefused) {
         change(subtree);
         const std::vector<std::byte> bytes = bytesOf(subtree);
         std::span<const std::byte> rest = bytes;
-        return !takeSubtree(rest, shape);
+        return !takeSubtree(rest, jobShape);
     };
     EXPECT_FALSE(refused([](Subtree&) {}));
     EXPECT_TRUE(refused([](Subtree& s) { s.root.id.level = 25; }));
@@ -86,7 +86,7 @@ TEST(JobBytes, ChangedBytesNeverReadPastTheEnd) {
         std::vector<std::byte> bytes = good;
         for (int change = 0; change < 3; ++change) bytes[random() % 120] = static_cast<std::byte>(random());
         std::span<const std::byte> rest = bytes;
-        const auto taken = takeSubtree(rest, shape);
+        const auto taken = takeSubtree(rest, jobShape);
         EXPECT_LE(rest.size(), bytes.size());
         EXPECT_TRUE(!taken || taken->offAboveM.size() <= bytes.size() / sizeof(double));
     }

@@ -12,7 +12,7 @@
 namespace worldy::ui {
 namespace {
 
-constexpr Rect area{100, 50, 400, 300};
+constexpr Rect picture{100, 50, 400, 300};
 
 TracedNode boxed(std::uint64_t id, const glm::dvec3& centre, double half) {
     TracedNode node;
@@ -31,7 +31,7 @@ TEST(TraceSpace, theEnginesCameraSeesABoxWhereItsMatricesPutIt) {
     camera.projection = glm::perspective(1.2, 4.0 / 3, 1.0, 1e4);
     camera.width = 800;
     camera.height = 600;
-    const SpaceView space = spaceView(camera, area);
+    const SpaceView space = spaceView(camera, picture);
     EXPECT_FLOAT_EQ(space.area.width, 400);
     EXPECT_FLOAT_EQ(space.area.height, 300);
     const glm::dvec3 place(1e7 + 2, 1, 0);
@@ -50,7 +50,7 @@ TEST(TraceSpace, aCameraAroundTheNodesSeesThemInTheMiddle) {
     view.nodes = {boxed(1, {1000, 1000, 0}, 10), boxed(2, {1040, 1000, 0}, 10)};
     const SpaceCamera camera = cameraAround(frame, view);
     EXPECT_NEAR(glm::length(camera.target - glm::dvec3(1020, 1000, 0)), 0, 1e-9);
-    const auto shapes = spaceShapes(spaceView(camera, area), frame, view, {});
+    const auto shapes = spaceShapes(spaceView(camera, picture), frame, view, {});
     ASSERT_EQ(shapes.size(), 2u);
     EXPECT_GE(shapes[0].distance, shapes[1].distance);
     for (const SpaceShape& shape : shapes) {
@@ -76,11 +76,11 @@ TEST(TraceSpace, aCameraAroundAGlobeIsOnTheSideOfTheEnginesCamera) {
     for (const glm::dvec3 eye :
          {glm::dvec3(0, -300, 0), glm::dvec3(100, -200, 50), glm::dvec3(-10, 20, 290)}) {
         view.info->eye = eye;
-        const SpaceView space = spaceView(cameraAround(frame, view), area);
+        const SpaceView space = spaceView(cameraAround(frame, view), picture);
         EXPECT_NEAR(glm::dot(glm::normalize(space.eye), glm::normalize(eye)), 1, 1e-9);
     }
     view.info->eye = {0, -300, 0};
-    const auto shapes = spaceShapes(spaceView(cameraAround(frame, view), area), frame, view, {});
+    const auto shapes = spaceShapes(spaceView(cameraAround(frame, view), picture), frame, view, {});
     ASSERT_EQ(shapes.size(), 2u);
     EXPECT_TRUE(shapes[0].isBehind);
     EXPECT_FALSE(shapes[1].isBehind);
@@ -92,7 +92,7 @@ TEST(TraceSpace, onlyDrawnNodesAndTheSelectedOneAreShown) {
     view.nodes = {boxed(1, {0, 0, 0}, 1), boxed(2, {5, 0, 0}, 1), boxed(3, {9, 0, 0}, 1)};
     view.nodes[1].place = TracedPlace::Split;
     view.nodes[2].place = TracedPlace::Split;
-    const SpaceView space = spaceView(cameraAround(frame, view), area);
+    const SpaceView space = spaceView(cameraAround(frame, view), picture);
     EXPECT_EQ(spaceShapes(space, frame, view, {}).size(), 1u);
     EXPECT_EQ(spaceShapes(space, frame, view, 3).size(), 2u);
     view.nodes[0].node.bounds.centre.x = std::nan("");
