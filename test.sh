@@ -18,5 +18,6 @@ folder=build
 # The embedding program wants a display; the window's tests start their own.
 display=""
 [ -n "${DISPLAY:-}" ] || display='xvfb-run -a -s "-screen 0 1600x1000x24"'
-eval "$display"' ctest --test-dir "$folder" --output-on-failure -j "$(nproc)" "$@"'
+# One more than there are cores: the tests of the window wait for it, and leave a fourth of a core idle each.
+eval "$display"' ctest --test-dir "$folder" --output-on-failure -j "$(($(nproc) + 1))" "$@"'
 [ "$preset" != release ] || [ $# -gt 0 ] || cat build-fuzz/figures
