@@ -42,6 +42,10 @@ std::vector<FailedBlock> PlanetInspector::failedBlocks() const {
     return all;
 }
 
+double PlanetInspector::sinceResetS() const {
+    return state_.run.sinceResetS;
+}
+
 bool PlanetInspector::normalsArePending() const {
     return state_.normalsArePending();
 }

@@ -35,6 +35,8 @@ public:
     // Returns the blocks whose last read failed, at most the latest 4096 of each kind: heights, then colours,
     // then normals, each in the order of failure.
     std::vector<FailedBlock> failedBlocks() const;
+    // Returns the seconds that steps have taken since the planet was opened or reset.
+    double sinceResetS() const;
     // Returns whether normals will begin once a thread has derived the tiles of the whole faces.
     bool normalsArePending() const;
 

@@ -21,6 +21,7 @@
 #include "app/base/exit_code.h"
 #include "app/bench/bench_command.h"
 #include "app/cli/app.h"
+#include "app/cli/atlas_command.h"
 #include "app/cli/attach_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/bake_command.h"
@@ -350,6 +351,61 @@ void addReplay(CLI::App& command, ReplayOptions& options) {
         ->excludes(simulated);
 }
 
+void addAtlas(CLI::App& command, AtlasOptions& options, std::vector<std::string>& limits) {
+    planet::AtlasGrid& grid = options.grid;
+    command.add_option("FILE", options.file, "Chunk file")->required();
+    command
+        .add_option("--altitudes", grid.altitudesM,
+                    "Altitudes of the viewpoints above the ground or a drawn sea, metres (200,5000,50000)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(number(0.1, 1e9));
+    command.add_option("--headings", grid.headings, "Headings at each place and altitude (4)")
+        ->check(CLI::Range(1, planet::mostAtlasHeadings));
+    command
+        .add_option("--pitch", grid.pitchDeg,
+                    "Pitch of the views from the horizon of a sphere without relief, degrees (-10)")
+        ->check(number(-90, 0));
+    command
+        .add_option("--viewpoints", grid.most,
+                    "Most viewpoints; the survey splits cells where it matters until they are used up (5000)")
+        ->check(CLI::Range(std::uint64_t{6}, std::uint64_t{planet::mostAtlasViewpoints}));
+    command
+        .add_option("--cells", grid.coarsestLevel,
+                    "Level of the first cells: 6 x 4^level of them, or fewer if the viewpoints are few (2)")
+        ->check(CLI::Range(0, 8));
+    command.add_flag("--true-error", options.measuresError,
+                     "Also compare the drawn surface with the finest data, which takes longer");
+    command.add_flag("--no-tree{false}", options.recordsTree,
+                     "Leave out the list of chunks, with which --diff finds what a bake has changed");
+    command.add_option("--threads", options.threads, "Threads; 0: one per core (0)")
+        ->check(CLI::Range(0, 1024));
+    command.add_flag("--resume", options.resumes, "Continue the unfinished survey of the output");
+    command.add_option("--worst", options.listed, "Viewpoints to list of each measure, worst first (5)")
+        ->check(wholeNumber(0, 1'000'000));
+    command.add_option("--csv", options.csv, "Table of all viewpoints to write, .csv");
+    command
+        .add_option("--disk-ms", options.diskMs,
+                    "Latency of a read of the simulated disk, ms (that of the settings, or 5)")
+        ->check(number(0, 1e4));
+    command
+        .add_option("--disk-mb-s", options.diskMBs,
+                    "10^6 bytes per second of a loader, 0 is unlimited (that of the settings, or 100)")
+        ->check(number(0, 1e5));
+    CLI::Option* const diff =
+        command.add_option("--diff", options.diff,
+                           "Earlier atlas: surveys its viewpoints again, with its settings, and compares");
+    command
+        .add_option("--limit", limits,
+                    "With --diff: how far a measure may move, for example eps_px=+0.2, triangles=-10% or "
+                    "chunks=+0; may be repeated")
+        ->type_name("NAME=+X")
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false)
+        ->needs(diff);
+}
+
 struct TraceTexts {
     std::string goal;
     std::string data = "all";
@@ -606,6 +662,35 @@ Result<void> finish(PrefetchOptions& options, const PrefetchTexts& texts) {
     return {};
 }
 
+Result<void> finish(AtlasOptions& options, const SharedTexts& shared,
+                    const std::vector<std::string>& limits) {
+    std::sort(options.grid.altitudesM.begin(), options.grid.altitudesM.end());
+    if (Result<void> once = checkOnce("--altitudes", options.grid.altitudesM); !once) return once;
+    if (options.grid.altitudesM.size() > planet::mostAtlasAltitudes) {
+        return planet::badInput(fmt::format("--altitudes: {} are too many; expected at most {}",
+                                            options.grid.altitudesM.size(), planet::mostAtlasAltitudes));
+    }
+    const std::uint64_t least = planet::faceCount * options.grid.altitudesM.size() *
+                                static_cast<std::uint64_t>(options.grid.headings);
+    if (options.grid.most < least) {
+        return planet::badInput(
+            fmt::format("--viewpoints: {} are too few for {} altitudes and {} headings of six "
+                        "cells; expected at least {}",
+                        options.grid.most, options.grid.altitudesM.size(), options.grid.headings, least));
+    }
+    if (options.output.empty() && options.diff.empty())
+        return planet::badInput("--output is required without --diff; see worldy atlas --help");
+    if (options.output.empty() && options.resumes)
+        return planet::badInput("--resume continues the survey of --output; expected an --output");
+    options.changes = shared.view;
+    for (const std::string& text : limits) {
+        const Result<planet::AtlasLimit> limit = planet::atlasLimitFromText(text);
+        if (!limit) return planet::badInput(fmt::format("--limit {}", limit.error().message));
+        options.limits.push_back(*limit);
+    }
+    return {};
+}
+
 Result<void> finish(TraceCommandOptions& options, const TraceTexts& texts) {
     planet::TraceSelectorSettings& settings = options.whatIf.settings;
     const auto placeOf = [](const auto& names, const std::string& name) {
@@ -687,6 +772,8 @@ struct CommandLine {
     PrefetchOptions prefetch;
     PrefetchTexts prefetchTexts;
     AuditOptions audit;
+    AtlasOptions atlas;
+    std::vector<std::string> atlasLimits;
     ReplayOptions replay;
     CompareOptions compare;
     CompareTexts compareTexts;
@@ -731,6 +818,7 @@ struct CommandLine {
         addPops(at("pops"), pops);
         addPrefetch(at("prefetch"), prefetch, prefetchTexts, shared["prefetch"].view);
         addAudit(at("audit"), audit, shared["audit"].view);
+        addAtlas(at("atlas"), atlas, atlasLimits);
         addReplay(at("replay"), replay);
         addCompare(at("compare"), compare, compareTexts);
         addMakeLayers(at("make-layers"), makeLayers);
@@ -837,6 +925,10 @@ int runCommand(int argumentCount, const char* const* arguments) {
         {"prefetch", command("prefetch", line.prefetch, runPrefetch,
                              [&](const Settings&) { return finish(line.prefetch, line.prefetchTexts); })},
         {"audit", command("audit", line.audit, runAudit, ready)},
+        {"atlas", command("atlas", line.atlas, runAtlasCommand,
+                          [&](const Settings&) {
+                              return finish(line.atlas, line.shared.at("atlas"), line.atlasLimits);
+                          })},
         {"settings", command("settings", line.settings, runSettings, ready)},
         {"trace", command("trace", line.trace, runTrace,
                           [&](const Settings&) { return finish(line.trace, line.traceTexts); })},

@@ -26,7 +26,7 @@ constexpr FlightSampling everySeconds(double seconds) {
 }
 constexpr const char* reportHelp = "Report to write, JSON";
 
-constexpr std::array<CommandSpec, 20> commandTable = {{
+constexpr std::array<CommandSpec, 21> commandTable = {{
     {.name = "bake",
      .about = "Bake elevation images or rasters, a world file, six cube faces or procedural terrain into a "
               "chunk file",
@@ -91,6 +91,12 @@ constexpr std::array<CommandSpec, 20> commandTable = {{
      .output = reportHelp,
      .sampling = everySeconds(1),
      .worst = "Chunks"},
+    {.name = "atlas",
+     .about =
+         "Survey the whole planet from many viewpoints: errors, costs, the time until it is sharp, pops; or "
+         "compare it with an earlier survey, and exit with 1 if a limit is exceeded",
+     .takes = pictureOptions | takes::output,
+     .output = "Atlas to write, .atlas"},
     {.name = "replay",
      .about = "Replay a recorded flight without a display and check that every frame matches; with other "
               "settings, differences are reported but are no failure",

@@ -11,6 +11,7 @@
 #include "app/settings/layer_file.h"
 #include "app/settings/view_options.h"
 #include "planet/format/chunk_file.h"
+#include "planet/measure/atlas_file.h"
 #include "planet/sphere/cube_sphere.h"
 
 namespace worldy {
@@ -62,6 +63,17 @@ CommandFiles filesOf(const AppOptions& options) {
     files.inputs.insert(files.inputs.end(),
                         {options.settingsFile, options.shaderFolder, options.regionsFile});
     files.outputs = {{options.itemMapFile, OutputKind::ItemMap}};
+    return files;
+}
+
+CommandFiles filesOf(const AtlasOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.push_back(options.diff);
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.output, OutputKind::Atlas}, {options.csv, OutputKind::Csv}};
+    if (!options.output.empty())
+        files.outputs.push_back({planet::unfinishedAtlas(options.output), OutputKind::Atlas});
     return files;
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/bench/bench_command.h"
 #include "app/cli/app.h"
+#include "app/cli/atlas_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/bake_command.h"
 #include "app/cli/compare_command.h"
@@ -23,6 +24,7 @@
 namespace worldy {
 
 CommandFiles filesOf(const AppOptions& options);
+CommandFiles filesOf(const AtlasOptions& options);
 CommandFiles filesOf(const AuditOptions& options);
 CommandFiles filesOf(const BakeOptions& options);
 CommandFiles filesOf(const BenchOptions& options);

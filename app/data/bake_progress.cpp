@@ -77,16 +77,26 @@ TerminalProgress::~TerminalProgress() {
 
 void TerminalProgress::show(const planet::BakeProgress& progress) {
     if (progress.samplesTotal == 0) return;
-    showLine(progress, asJson_ ? progressJson(progress).dump() : progressText(progress, shareOf(progress)));
+    showLine(shareOf(progress),
+             asJson_ ? progressJson(progress).dump() : progressText(progress, shareOf(progress)));
 }
 
 void TerminalProgress::show(const planet::JobProgress& progress) {
     if (progress.bake.samplesTotal == 0) return;
-    showLine(progress.bake,
+    showLine(shareOf(progress.bake),
              asJson_ ? progressJson(progress).dump() : progressText(progress, shareOf(progress.bake)));
 }
 
-void TerminalProgress::showLine(const planet::BakeProgress& progress, const std::string& text) {
+void TerminalProgress::show(const planet::AtlasProgress& progress) {
+    if (progress.since == 0) return;
+    const double perS = static_cast<double>(progress.since) / progress.elapsedS;
+    const double share = static_cast<double>(progress.done) / static_cast<double>(progress.total);
+    showLine(share, fmt::format("{:3.0f} %  {} of {} viewpoints  {:.1f} viewpoints/s  {} left", 100 * share,
+                                progress.done, progress.total, perS,
+                                durationText(static_cast<double>(progress.total - progress.done) / perS)));
+}
+
+void TerminalProgress::showLine(double share, const std::string& text) {
     if (asJson_) {
         printMessage("{}\n", text);
         std::fflush(stderr);
@@ -98,7 +108,7 @@ void TerminalProgress::showLine(const planet::BakeProgress& progress, const std:
         lineOpen_ = true;
         return;
     }
-    const int tenths = static_cast<int>(10 * shareOf(progress));
+    const int tenths = static_cast<int>(10 * share);
     if (tenths <= tenthsShown_) return;
     printMessage("{}\n", text);
     tenthsShown_ = tenths;

@@ -1,4 +1,4 @@
-// Shows the progress of a bake on the terminal.
+// Shows the progress of a bake or a survey on the terminal.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include "app/data/bake_job.h"
 #include "planet/bake/bake.h"
 #include "planet/bake/job/bake_job.h"
+#include "planet/measure/atlas_run.h"
 
 namespace worldy {
 
@@ -20,9 +21,10 @@ public:
 
     void show(const planet::BakeProgress& progress);
     void show(const planet::JobProgress& progress);
+    void show(const planet::AtlasProgress& progress);
 
 private:
-    void showLine(const planet::BakeProgress& progress, const std::string& text);
+    void showLine(double share, const std::string& text);
 
     bool asJson_;
     bool terminal_ = false;

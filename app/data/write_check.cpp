@@ -79,6 +79,8 @@ bool isOfKind(const fs::path& file, OutputKind kind) {
             return startOfFile(file, 8) == "counter/";
         case OutputKind::Trace:
             return startOfFile(file, 8) == "LODTRACE";
+        case OutputKind::Atlas:
+            return startOfFile(file, 8) == "WORLDYAT";
     }
     return false;
 }
@@ -105,6 +107,8 @@ std::string_view nameOf(OutputKind kind) {
             return "an item map";
         case OutputKind::Trace:
             return "a trace";
+        case OutputKind::Atlas:
+            return "an atlas";
     }
     return "";
 }

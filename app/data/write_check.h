@@ -22,6 +22,7 @@ enum class OutputKind : std::uint8_t {
     Layout,    // TOML
     ItemMap,
     Trace,
+    Atlas,
 };
 
 struct OutputFile {

@@ -1,0 +1,49 @@
+// Surveys a planet into an atlas (planet/measure/atlas.h), for the command atlas and for the window. Draws nothing.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/settings/camera_text.h"
+#include "app/settings/view_settings.h"
+#include "planet/measure/atlas.h"
+#include "planet/measure/atlas_run.h"
+
+namespace worldy {
+
+struct AtlasRequest {
+    std::filesystem::path file;      // the chunk file
+    std::filesystem::path output{};  // the atlas; empty: it is kept in memory alone
+    ViewSettings view;               // with the simulated disk in paging.badDisk
+    PictureSize size;
+    planet::AtlasGrid grid;
+    bool measuresError = false;
+    bool recordsTree = true;
+    bool resumes = false;  // continues the unfinished survey of the output
+    std::size_t threads = 1;
+    // The atlas whose viewpoints are surveyed again, with its picture size, field of view and grid instead of those above.
+    std::shared_ptr<const planet::Atlas> revisited{};
+};
+
+struct AtlasOutcome {
+    planet::Atlas atlas;
+    planet::AtlasRun run;
+    double treeS = 0;  // for reading the tree
+};
+
+// Called a few times per second, from any thread, one call at a time. While the tree is read, there is no progress yet.
+// Returning false cancels.
+using WatchAtlas = std::function<bool(const std::optional<planet::AtlasProgress>&)>;
+
+// Surveys a planet. A cancelled survey leaves its unfinished file, and so does a killed one. The Error names the file and
+// the problem: a survey is continued only with the same bake and settings.
+planet::Result<AtlasOutcome> surveyAtlas(const AtlasRequest& request, const WatchAtlas& goOn);
+
+// Returns the view settings of an atlas with its regions. The Error names what its text has wrong.
+planet::Result<ViewSettings> settingsOf(const planet::AtlasSurvey& survey, const std::string& name);
+
+}  // namespace worldy
