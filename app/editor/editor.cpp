@@ -160,6 +160,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advanceEstimate(bakes_.estimator);
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
+    advanceAtlas(instruments_.atlas, notices_.log);
     takeUpSession(session, commands);
     advanceNotes(files_.notes, shownPlanet(session), frames_.timeS, notices_);
     advanceTrace(files_.trace, movedS, notices_.log);
@@ -444,6 +445,8 @@ ui::EditorView Editor::view(Session& session) {
     const ViewSettings& settings = settings_.settings.view;
     const planet::View& view = viewport_.main.view;
     const Scene* scene = camera_.rig ? shownScene(session) : nullptr;
+    ui::InstrumentsView instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame);
+    instruments.atlas = atlasViewOf(instruments_.atlas, shownPlanet(session));
     return {.planet = scene ? scene->planet.get() : nullptr,
             .frames = framesViewOf(frames_, frameLimit()),
             .log = window_.logLines,
@@ -454,7 +457,7 @@ ui::EditorView Editor::view(Session& session) {
             .bake = bakeViewOf(bakes_, session),
             .camera = cameraViewOf(camera_, scene, view, settings_.settings.workspace.preferences),
             .settings = settingsViewOf(settings_),
-            .instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame),
+            .instruments = std::move(instruments),
             .recording = recordingViewOf(recording_, settings),
             .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
             .sweep = sweepViewOf(sweep_),
@@ -475,6 +478,8 @@ void Editor::tellProblems(const Session& session) {
     const bool isFailure = bake && session.open && bake->kind != planet::ErrorKind::Cancelled;
     tell(PanelId::Bake, "The bake failed", isFailure ? bake->message : "");
     tell(PanelId::Sweep, "The sweep has no result", sweep_.cancelled ? "" : sweep_.problem);
+    tell(PanelId::Atlas, "The planet was not surveyed",
+         instruments_.atlas.cancelled ? "" : instruments_.atlas.problem);
     tell(PanelId::Compare, "There is no comparison", compare_.problem);
     tell(PanelId::Compare, "The flight was not compared",
          compare_.flight.cancelled ? "" : compare_.flight.problem);
@@ -544,6 +549,10 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                     scene ? std::optional(scene->planet->tree().shape.radiusM) : std::nullopt;
                 worldy::execute(files_.trace, c, settings_.settings.workspace, radiusM, notices_, next);
             },
+            [&](const ui::AtlasCommand& c) {
+                worldy::execute(instruments_.atlas, c,
+                                {shownPlanet(session), settings_, camera_, camera, replaying()}, notices_);
+            },
             [&](const ui::NoteCommand& c) {
                 worldy::execute(files_.notes, c, settings_.settings.workspace, notices_);
             },
@@ -558,7 +567,8 @@ std::size_t Editor::runningJobs() const {
            std::size_t{sweep_.job != nullptr} + std::size_t{bakes_.estimator.job != nullptr} +
            std::size_t{bakes_.preview.job != nullptr} + std::size_t{sources.reader.job != nullptr} +
            std::size_t{sources.queries.job != nullptr} + std::size_t{sources.depths.job != nullptr} +
-           std::size_t{instruments_.ruler.job != nullptr} + sources.reader.ending.size();
+           std::size_t{instruments_.ruler.job != nullptr} + std::size_t{instruments_.atlas.job != nullptr} +
+           sources.reader.ending.size();
 }
 
 void Editor::watchAllocations(const Session& session) {

@@ -99,7 +99,7 @@ void emptyViewport(const Session& session, const ui::EditorView& view, const ui:
 // Returns true if the command moves the camera to something that the user wants to see.
 bool leadsToAPlace(const ui::Command& command) {
     return command.as<ui::MoveCamera>() || command.as<ui::InspectPlace>() || command.as<ui::LookAtChunk>() ||
-           command.as<ui::GoBackToPop>() || command.as<ui::LookAsTrace>();
+           command.as<ui::GoBackToPop>() || command.as<ui::LookAsTrace>() || command.as<ui::LookFromAtlas>();
 }
 
 // Paints the chosen region where the pointer is pressed on the main picture, for which the camera stays where it is, or sets

@@ -68,6 +68,7 @@ void open(FileController& files, const std::filesystem::path& file, const FileCo
             addRecentFile(files.recent, file);
             keepRecent(files, notices);
         }
+        if (file.extension() == ".atlas") return next.push_back(ui::OpenAtlas{file});
         // A file that is only named like a trace gets the error of one.
         if (isTrace || file.extension() == ".lodtrace") return next.push_back(ui::OpenTrace{file});
         if (file.extension() == ".png" && openScreenshot(file, context, notices)) return;

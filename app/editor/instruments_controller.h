@@ -2,6 +2,7 @@
 // errors. Needs the window's GL context current. Main thread.
 #pragma once
 
+#include "app/editor/atlas_controller.h"
 #include "app/editor/camera_controller.h"
 #include "app/editor/viewport.h"
 #include "app/measure/cracks.h"
@@ -28,6 +29,7 @@ struct InstrumentsController {
     CostInstrument costs;
     ErrorMeter errors;
     Ruler ruler;
+    AtlasController atlas;
 };
 
 // Parts of other features that instrument commands use and change.

@@ -15,8 +15,9 @@ namespace {
 
 std::vector<planet::gl::ChunkTint> tintsOf(const Scene& scene, const planet::Selection& selection,
                                            const ViewSettings& settings, TintData data,
-                                           const ErrorMeter& errors) {
-    if (errors.last) data.measured = &*errors.last;
+                                           const InstrumentsController& instruments) {
+    if (instruments.errors.last) data.measured = &*instruments.errors.last;
+    if (instruments.atlas.atlas) data.atlas = &instruments.atlas.drape;
     return chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx, data);
 }
 
@@ -41,6 +42,13 @@ void appendRuler(const Ruler& ruler, const Scene& scene, PictureContent& content
     content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());
 }
 
+void appendAtlas(const InstrumentsController& instruments, const Scene& scene, const OverlaySettings& overlay,
+                 PictureContent& content) {
+    if (overlay.colourBy != ColourBy::Atlas || !instruments.atlas.atlas) return;
+    const planet::Lines lines = atlasLines(instruments.atlas.drape, scene.planet->tree(), content.view);
+    content.frontLines.insert(content.frontLines.end(), lines.begin(), lines.end());
+}
+
 }  // namespace
 
 void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsController& instruments,
@@ -55,7 +63,7 @@ void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsC
     if (kept) content.kept = KeptItems{kept->selection.draw, kept->stitched};
     const planet::Selection& shown = kept ? kept->selection : scene.planet->selection();
     const std::vector<planet::gl::ChunkTint> tints =
-        tintsOf(scene, shown, settings, input.tints, instruments.errors);
+        tintsOf(scene, shown, settings, input.tints, instruments);
     content.tints = tints;
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
     ChunkFocus focus = input.focus;
@@ -63,6 +71,7 @@ void drawMainPicture(Viewport& viewport, const PictureInput& input, InstrumentsC
     content.frontLines = focusLines(scene.planet->tree(), focus, content.view);
     appendOutlines(input, content);
     appendRuler(instruments.ruler, scene, content);
+    appendAtlas(instruments, scene, settings.overlay, content);
     drawPicture(viewport, viewport.main, scene, settings, content, log);
 }
 
@@ -76,7 +85,7 @@ void drawObserverPicture(Viewport& viewport, const PictureInput& input,
     content.selection = observerSelection(scene, viewport, settings.camera);
     const planet::Selection& shown = scene.planet->selection(content.selection);
     const std::vector<planet::gl::ChunkTint> tints =
-        tintsOf(scene, shown, settings, input.tints, instruments.errors);
+        tintsOf(scene, shown, settings, input.tints, instruments);
     content.tints = tints;
     content.hiddenLines = linesOver(scene, shown, content.view, settings);
     content.frontLines =
@@ -85,6 +94,7 @@ void drawObserverPicture(Viewport& viewport, const PictureInput& input,
     content.frontLines.insert(content.frontLines.end(), focus.begin(), focus.end());
     appendOutlines(input, content);
     appendRuler(instruments.ruler, scene, content);
+    appendAtlas(instruments, scene, settings.overlay, content);
     drawPicture(viewport, viewport.observer, scene, settings, content, log);
 }
 

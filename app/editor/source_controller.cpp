@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t mostAskedChunks = 64;  // in a job
 constexpr std::size_t mostTops = 1'000'000;  // chunks whose topmost layer is kept
 
-planet::Geographic middleOf(const planet::ChunkId& chunk) {
+planet::Geographic placeInMiddleOf(const planet::ChunkId& chunk) {
     const planet::FaceSquare square = planet::faceSquareOf(chunk);
     const double half = square.side / 2;
     return planet::geographicFromDirection(
@@ -156,7 +156,7 @@ std::optional<planet::Geographic> pointedPlace(const SourceFrame& frame) {
 void askPlaces(SourceController& sources, const SourceFrame& frame) {
     takeAnswers(sources);
     const std::optional<planet::Geographic> middle =
-        frame.focus.selected ? std::optional(middleOf(*frame.focus.selected)) : std::nullopt;
+        frame.focus.selected ? std::optional(placeInMiddleOf(*frame.focus.selected)) : std::nullopt;
     if (sources.queries.selected && (!middle || !isSame(sources.queries.selected->place, *middle)))
         sources.queries.selected.reset();
     if (!sources.reader.layers || sources.queries.job) return;
@@ -167,7 +167,7 @@ void askPlaces(SourceController& sources, const SourceFrame& frame) {
             if (sources.queries.chunks.size() == mostAskedChunks) break;
             if (sources.queries.tops.contains(item.id)) continue;
             sources.queries.chunks.push_back(item.id);
-            places.push_back(middleOf(item.id));
+            places.push_back(placeInMiddleOf(item.id));
         }
     }
     const auto ask = [&](const std::optional<planet::Geographic>& place,

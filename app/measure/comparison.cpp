@@ -113,7 +113,7 @@ ComparedSide timedSide(const ComparisonPlan& plan, std::size_t index) {
     ComparedSide side = flownSide(plan, index);
     // Nothing is measured or read for these tints here.
     constexpr std::array unknown = {ColourBy::Measured, ColourBy::LeafDepth, ColourBy::Spacing,
-                                    ColourBy::Source};
+                                    ColourBy::Source, ColourBy::Atlas};
     if (std::ranges::find(unknown, side.settings.overlay.colourBy) != unknown.end())
         side.settings.overlay.colourBy = ColourBy::None;
     return side;

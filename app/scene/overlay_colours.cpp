@@ -8,6 +8,7 @@
 #include <glm/packing.hpp>
 #include <glm/vec4.hpp>
 #include <numbers>
+#include <optional>
 
 namespace worldy {
 
@@ -96,6 +97,8 @@ glm::vec3 tintOf(const planet::DrawItem& item, const planet::ChunkNode& node, co
             return sourceColour(item.id, scale);
         case ColourBy::Region:
             return demandColour(scale.tree, node.demand);
+        case ColourBy::Atlas:
+            return atlasColour(scale.data.atlas, item.id);
         case ColourBy::None:
             break;
     }
@@ -177,6 +180,11 @@ glm::vec3 demandColour(const planet::ChunkTree& tree, const planet::ChunkDemand&
     return glm::mix(noRegionColour, regionColour(demand.region), static_cast<float>(share));
 }
 
+glm::vec3 atlasColour(const AtlasDrape* atlas, const planet::ChunkId& chunk) {
+    const std::optional<double> value = atlas ? valueAt(*atlas, chunk) : std::nullopt;
+    return value ? rampColour(shareOf(*atlas, *value)) : unmeasuredColour;
+}
+
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
                                               const planet::Selection& selection,
                                               const OverlaySettings& overlay, double tauPx,
@@ -190,7 +198,10 @@ std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,
     const planet::ChunkNode unknown;
     for (const planet::DrawItem& item : selection.draw) {
         const auto& node = item.node < tree.nodes.size() ? tree.nodes[item.node] : unknown;
-        tints.push_back({colourBytes(tintOf(item, node, scale), strength)});
+        // The cells of an atlas are drawn over chunks that are coarser (atlasLines).
+        const bool isCovered =
+            overlay.colourBy == ColourBy::Atlas && data.atlas && isCoarserThanCells(*data.atlas, item.id);
+        tints.push_back({colourBytes(tintOf(item, node, scale), isCovered ? std::uint8_t{0} : strength)});
     }
     return tints;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/data/leaf_depths.h"
+#include "app/scene/atlas_drape.h"
 #include "app/scene/error_measurement.h"
 #include "app/settings/view_settings.h"
 #include "planet/chunk_explanation.h"
@@ -45,6 +46,9 @@ inline const glm::vec3 noRegionColour(0.35f);  // for chunks about which no regi
 // Returns the colour of a chunk: that of the region that decides about it, mixed with noRegionColour in the soft border.
 glm::vec3 demandColour(const planet::ChunkTree& tree, const planet::ChunkDemand& demand);
 
+// Returns the colour of a chunk by an atlas; grey where the atlas is null or has no value.
+glm::vec3 atlasColour(const AtlasDrape* atlas, const planet::ChunkId& chunk);
+
 // The topmost layer with a height in the middle of chunks; nothing where no layer has one.
 using SourceTops = std::unordered_map<planet::ChunkId, std::optional<std::size_t>>;
 
@@ -53,6 +57,7 @@ struct TintData {
     const ErrorMeasurement* measured = nullptr;  // for ColourBy::Measured
     const LeafDepths* depths = nullptr;          // for ColourBy::LeafDepth and Spacing
     const SourceTops* tops = nullptr;            // for ColourBy::Source
+    const AtlasDrape* atlas = nullptr;           // for ColourBy::Atlas
 };
 
 // Returns the tints of the drawn chunks of a selection, in its order; none if chunks are not coloured. Chunks of which

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "app/scene/atlas_drape.h"
 #include "app/scene/overlay_colours.h"
 #include "planet/gl/draw/debug_shapes.h"
+#include "planet/sphere/chunk_id.h"
+#include "planet/sphere/cube_sphere.h"
 #include "planet/sphere/planet_shape.h"
 #include "planet/sphere/view.h"
 #include "planet/tree/chunk_tree.h"
@@ -43,6 +47,17 @@ void drape(const std::vector<glm::dvec3>& directions, const planet::LineColour& 
     }
 }
 
+// Returns a line across a cell, from one point of its face to another, as directions.
+std::vector<glm::dvec3> lineAcross(planet::Face face, const glm::dvec2& from, const glm::dvec2& to) {
+    constexpr int pieces = 3;
+    std::vector<glm::dvec3> directions;
+    for (int i = 0; i <= pieces; ++i) {
+        const glm::dvec2 at = from + (to - from) * (static_cast<double>(i) / pieces);
+        directions.push_back(planet::sphereFromCube(planet::cubePoint(face, at.x, at.y)));
+    }
+    return directions;
+}
+
 }  // namespace
 
 void follow(RegionOutlines& outlines, const planet::ChunkTree& tree) {
@@ -70,6 +85,25 @@ planet::Lines draftLines(const planet::Region& draft, const planet::LineColour& 
     planet::Lines lines;
     for (const std::vector<glm::dvec3>& line : planet::outlinesOf(draft, tree.shape.radiusM))
         drape(line, colour, tree, view, lines);
+    return lines;
+}
+
+planet::Lines atlasLines(const AtlasDrape& atlas, const planet::ChunkTree& tree, const planet::View& view) {
+    constexpr int hatches = 12;
+    planet::Lines lines;
+    for (const auto& [cell, value] : atlas.values) {
+        if (isCoarserThanCells(atlas, cell)) continue;
+        const planet::FaceSquare square = planet::faceSquareOf(cell);
+        const planet::LineColour colour = colourBytes(rampColour(shareOf(atlas, value)), 255);
+        // The gaps between cells are twice as wide as those between hatches.
+        for (int i = 1; i < hatches; ++i) {
+            const double along = square.side * i / hatches;
+            const double inset = square.side / hatches;
+            drape(lineAcross(cell.face, {square.u + inset, square.v + along},
+                             {square.u + square.side - inset, square.v + along}),
+                  colour, tree, view, lines);
+        }
+    }
     return lines;
 }
 

@@ -1,10 +1,11 @@
-// The outlines of a planet's regions over its ground.
+// The outlines of a planet's regions, and the cells of an atlas, over its ground.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <memory>
 #include <vector>
 
+#include "app/scene/atlas_drape.h"
 #include "planet/gl/draw/debug_shapes.h"
 #include "planet/tree/chunk_tree.h"
 
@@ -24,5 +25,8 @@ planet::Lines regionLines(const RegionOutlines& outlines, const planet::ChunkTre
                           const planet::View& view);
 planet::Lines draftLines(const planet::Region& draft, const planet::LineColour& colour,
                          const planet::ChunkTree& tree, const planet::View& view);
+
+// Returns the cells of an atlas in the same way, hatched in their colours.
+planet::Lines atlasLines(const AtlasDrape& drape, const planet::ChunkTree& tree, const planet::View& view);
 
 }  // namespace worldy

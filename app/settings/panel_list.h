@@ -38,7 +38,8 @@ enum class PanelId : std::uint8_t {
     Ruler,
     Notes,
     Timeline,
-    Regions
+    Regions,
+    Atlas
 };
 
 // Second: a window of the operating system for a second monitor, which is open while it has panels.
@@ -85,6 +86,7 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::Notes, "Notes", "notes", "Ctrl+M", Dock::Left, false},
     {PanelId::Timeline, "Timeline", "timeline", "Ctrl+Shift+T", Dock::Bottom, false},
     {PanelId::Regions, "Regions", "regions", "Ctrl+R", Dock::Right, false},
+    {PanelId::Atlas, "Atlas", "atlas", "Ctrl+Shift+A", Dock::Bottom, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

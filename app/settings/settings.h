@@ -14,9 +14,9 @@
 namespace worldy {
 
 // The names of the enumerators in files and on the command line, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 12> colourByNames = {
-    "none",       "level",    "error",      "delta_c", "morph",  "age",
-    "load_order", "measured", "leaf_depth", "spacing", "source", "region"};
+inline constexpr std::array<std::string_view, 13> colourByNames = {
+    "none",     "level",      "error",   "delta_c", "morph",  "age",  "load_order",
+    "measured", "leaf_depth", "spacing", "source",  "region", "atlas"};
 inline constexpr std::array<std::string_view, 2> surfaceNames = {"image", "ramp"};
 inline constexpr std::array<std::string_view, 2> colourModeNames = {"tiles", "clipmap"};
 inline constexpr std::array<std::string_view, 2> errorMetricNames = {"additive", "tight"};

@@ -234,9 +234,9 @@ void addPaging(Fields& fields, PagingOptions& paging) {
           Seed{&disk.seed}}});
 }
 
-constexpr std::array<std::string_view, 12> colourByLabels = {
-    "none",     "level",      "ε / τ",          "δc",     "morph", "age", "load order",
-    "measured", "leaf depth", "sample spacing", "source", "region"};
+constexpr std::array<std::string_view, 13> colourByLabels = {
+    "none",     "level",      "ε / τ",          "δc",     "morph",  "age",  "load order",
+    "measured", "leaf depth", "sample spacing", "source", "region", "atlas"};
 constexpr std::array<std::string_view, 3> skirtPaintLabels = {"as ground", "highlighted", "only skirts"};
 constexpr std::array<std::string_view, 4> chunkLabelsLabels = {"none", "level", "ε", "level and ε"};
 
@@ -248,8 +248,9 @@ void addOverlay(Fields& fields, OverlaySettings& overlay) {
           "tolerance, δc the geometric error in metres, age the time since loading, and measured the last "
           "measured error (True error panel) relative to the tolerance. Leaf depth is the level of the "
           "deepest leaf under a chunk, sample spacing the distance of the samples there, source the topmost "
-          "layer of the source that has a height in the middle of the chunk, and region the region that "
-          "decides about the chunk (Regions panel), paler in its soft border.",
+          "layer of the source that has a height in the middle of the chunk, region the region that "
+          "decides about the chunk (Regions panel), paler in its soft border, and atlas the measure shown in "
+          "the Atlas panel.",
           Choice{asByte(overlay.colourBy), colourByNames, colourByLabels}},
          {"overlay", "opacity", "Opacity",
           "Opacity of the tint. Smaller: more of the ground shows, but colours are harder to tell apart. At "

@@ -51,7 +51,8 @@ enum class ColourBy : std::uint8_t {
     LeafDepth,
     Spacing,
     Source,
-    Region
+    Region,
+    Atlas
 };
 enum class ChunkLabels : std::uint8_t { None, Level, Error, LevelAndError };
 

@@ -359,6 +359,29 @@ click "sweep/Apply: additive"; expect counts triangles -lt $fine
     EXPECT_EQ(tables, 1u);
 }
 
+TEST_F(PanelsWindowTest, TheWholePlanetIsSurveyedAndAViewpointBringsTheSettingsOfTheSurvey) {
+    const Ran ran = runInWindow(folder, "planet.chk", R"sh(
+slide "lod/Tolerance τ" 0.2; settle
+key ctrl+shift+a; tab Atlas
+slide atlas/Viewpoints 0.01; click atlas/Survey; expect says "Surveyed"
+expect shown "atlas/Go 0"
+slide "lod/Tolerance τ" 0.9; settle
+coarse=$(counter triangles)
+click "atlas/Go 0"; settle
+expect counts triangles -gt $coarse
+key ctrl+z; click "atlas/Tint planet"; frames
+)sh",
+                                {"1400x900"});
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+    std::filesystem::path atlas;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        if (entry.path().extension() == ".atlas") atlas = entry.path().filename();
+    ASSERT_FALSE(atlas.empty());
+    const Ran check = runWorldy(folder, "atlas planet.chk --diff '" + atlas.string() + "' --limit eps_px=+0");
+    EXPECT_EQ(check.exitCode, 0) << check.output << check.errors;
+}
+
 TEST_F(PanelsWindowTest, ComparingShowsTwoSettingsAndEnds) {
     drive(R"sh(
 slide "lod/Tolerance τ" 0; settle; plain=$(viewport)

@@ -22,6 +22,7 @@
 #include "app/settings/view_settings.h"
 #include "app/trace/trace_what_if_request.h"
 #include "planet/bake/bake.h"
+#include "planet/measure/atlas.h"
 #include "planet/source/height_source.h"
 #include "planet/sphere/block_id.h"
 #include "planet/sphere/chunk_id.h"
@@ -374,6 +375,24 @@ using TraceCommand = std::variant<OpenTrace, AttachTrace, DetachTrace, CloseTrac
                                   PlayTrace, SelectTraceNode, SelectTraceView, ShowTraceOnPlanet, LookAsTrace,
                                   StartTraceWhatIf, CancelTraceWhatIf, StartTraceCompare, CancelTraceCompare>;
 
+// Surveys of the whole planet (planet/measure/atlas.h).
+struct OpenAtlas {
+    std::filesystem::path file;
+};
+struct StartAtlas {  // of the shown planet, in the background, with the current settings
+    std::uint64_t viewpoints = 1000;
+    bool measuresError = false;
+};
+struct CancelAtlas {};
+struct ChooseAtlas {  // to show
+    planet::AtlasMeasure measure = planet::AtlasMeasure::EpsPx;
+    int altitude = 0;  // index
+};
+struct LookFromAtlas {          // moves the camera to a viewpoint and takes over the settings of the survey
+    std::size_t viewpoint = 0;  // index
+};
+using AtlasCommand = std::variant<OpenAtlas, StartAtlas, CancelAtlas, ChooseAtlas, LookFromAtlas>;
+
 // Notes on the planet.
 struct AddNote {
     Note note;
@@ -393,7 +412,7 @@ using NoteCommand = std::variant<AddNote, EditNote, DeleteNote, OpenNote>;
 using FeatureCommand =
     std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand, BakeCommand,
                  SettingsCommand, WindowCommand, LayerCommand, InstrumentCommand, RecordingCommand,
-                 SweepCommand, CompareCommand, SourceCommand, TraceCommand, NoteCommand>;
+                 SweepCommand, CompareCommand, SourceCommand, TraceCommand, AtlasCommand, NoteCommand>;
 
 // FeatureOf<Kind> is the variant that holds a kind of command: FeatureOf<SelectChunk> is ChunkCommand.
 template <class Kind, class Features>
@@ -428,6 +447,7 @@ public:
     Command(CompareCommand command);
     Command(SourceCommand command);
     Command(TraceCommand command);
+    Command(AtlasCommand command);
     Command(NoteCommand command);
     Command(Command&&) noexcept;
     Command& operator=(Command&&) noexcept;

@@ -23,6 +23,7 @@
 #include "planet/measure/lod_changes.h"
 #include "planet/planet.h"
 #include "ui/model/allocations_view.h"
+#include "ui/model/atlas_view.h"
 #include "ui/model/commands.h"
 #include "ui/model/compare_view.h"
 #include "ui/model/cracks_view.h"
@@ -157,6 +158,7 @@ struct SettingsView {
 struct InstrumentsView {
     const planet::LodChanges& changes;
     AllocationsView allocations{};
+    AtlasView atlas{};
     CracksView cracks{};
     ErrorsView errors{};
     LightView light{};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/base/text.h"
+#include "app/measure/atlas_table.h"
 #include "app/scene/overlay_colours.h"
 #include "ui/model/font_symbols.h"
 
@@ -69,6 +70,13 @@ std::vector<LegendRegion> legendRegions(const planet::Planet& planet) {
     return regions;
 }
 
+Legend legendOf(const AtlasDrape& drape) {
+    const std::string top = drape.isClamped ? inFont("\u2265") + " " : "";
+    return {std::string(planet::textOf(drape.measure).name), rampEntries([&](double share) {
+                return (share == 1 ? top : "") + figureText(drape.measure, valueOf(drape, share));
+            })};
+}
+
 Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,
                 const LegendFacts& facts) {
     switch (overlay.colourBy) {
@@ -109,6 +117,11 @@ Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deep
             });
             entries.push_back({unmeasuredColour, "not read yet"});
             return {"Sample spacing", entries};
+        }
+        case ColourBy::Atlas: {
+            Legend legend = facts.atlas ? legendOf(*facts.atlas) : Legend{"Atlas", {}};
+            legend.entries.push_back({unmeasuredColour, "not surveyed"});
+            return legend;
         }
         case ColourBy::Region:
             return {"Region", regionEntries(facts.regions)};

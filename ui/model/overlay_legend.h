@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/atlas_drape.h"
 #include "app/settings/view_settings.h"
 #include "planet/planet.h"
 #include "planet/sphere/planet_shape.h"
@@ -31,8 +32,10 @@ struct LegendFacts {
     planet::PlanetShape shape{};        // for ColourBy::LeafDepth and Spacing
     std::vector<std::string> layers{};  // for ColourBy::Source: the names from the bottom up; none: not known
     std::vector<LegendRegion> regions{};  // for ColourBy::Region
+    const AtlasDrape* atlas = nullptr;    // for ColourBy::Atlas; null without one
 };
 std::vector<LegendRegion> legendRegions(const planet::Planet& planet);
+Legend legendOf(const AtlasDrape& drape);
 Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,
                 const LegendFacts& facts = {});
 

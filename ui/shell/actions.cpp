@@ -224,6 +224,7 @@ const char* submenuOf(PanelId panel) {
         case PanelId::Flight:
         case PanelId::Compare:
         case PanelId::Sweep:
+        case PanelId::Atlas:
         case PanelId::Ruler:
         case PanelId::Timeline:
             return "Measuring panels";

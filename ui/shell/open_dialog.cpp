@@ -132,10 +132,18 @@ DialogTexts textsFor(FilePurpose purpose) {
 }  // namespace
 
 bool mayBeOpened(const fs::path& file, FilePurpose purpose) {
-    static constexpr std::array endings = std::to_array<std::string_view>(
-        {".chk", ".tif", ".tiff", ".hgt", ".dt0",  ".dt1",      ".dt2",
-         ".asc", ".nc",  ".jp2",  ".img", ".bil",  ".png",      ".pgm",
-         ".exr", ".hdr", ".jpg",  ".raw", ".toml", ".lodtrace", recordedFlightEnding});
+    static constexpr std::array endings =
+        std::to_array<std::string_view>({".chk",      ".tif",
+                                         ".tiff",     ".hgt",
+                                         ".dt0",      ".dt1",
+                                         ".dt2",      ".asc",
+                                         ".nc",       ".jp2",
+                                         ".img",      ".bil",
+                                         ".png",      ".pgm",
+                                         ".exr",      ".hdr",
+                                         ".jpg",      ".raw",
+                                         ".toml",     ".atlas",
+                                         ".lodtrace", recordedFlightEnding});
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });

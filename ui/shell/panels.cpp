@@ -67,6 +67,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return timelinePanel(view, states.timeline, commands);
         case PanelId::Regions:
             return regionsPanel(view, states.regions, settings, commands);
+        case PanelId::Atlas:
+            return atlasPanel(view, states.atlas, settings, commands);
     }
 }
 

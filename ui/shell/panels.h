@@ -18,6 +18,7 @@
 #include "ui/panels/lod/regions_panel.h"
 #include "ui/panels/lod/seams_panel.h"
 #include "ui/panels/log/log_panel.h"
+#include "ui/panels/measure/atlas_panel.h"
 #include "ui/panels/measure/cracks_panel.h"
 #include "ui/panels/measure/errors_panel.h"
 #include "ui/panels/measure/pops_panel.h"
@@ -61,6 +62,7 @@ struct PanelStates {
     NotesPanelState notes;
     TimelinePanelState timeline;
     RegionsPanelState regions;
+    AtlasPanelState atlas;
 };
 
 // Fills the current window with a panel.

@@ -231,7 +231,7 @@ void drawRulerNames(ImDrawList& drawList, const EditorView& view, const Rect& vi
 
 // Only the source of A is read.
 Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay,
-                 const planet::SourceLayers* layers = nullptr) {
+                 const planet::SourceLayers* layers = nullptr, const AtlasDrape* atlas = nullptr) {
     if (!planet) return {};
     // The levels of all views count, because an observer with its own LOD may draw finer chunks.
     std::uint32_t deepest = 0;
@@ -242,12 +242,13 @@ Legend legendFor(const planet::Planet* planet, const OverlaySettings& overlay,
         for (const planet::SourceLayer& layer : layers->layers) facts.layers.push_back(layer.name);
     }
     facts.regions = legendRegions(*planet);
+    facts.atlas = atlas;
     return legendOf(overlay, planet->views()[0].input.lod.tauPx, deepest, facts);
 }
 
 // Returns the legend. While comparing it is A's, or B's if only B's chunks are tinted.
 Legend shownLegend(const EditorView& view, const OverlaySettings& overlay) {
-    Legend legend = legendFor(view.planet, overlay, view.sources.layers);
+    Legend legend = legendFor(view.planet, overlay, view.sources.layers, view.instruments.atlas.drape);
     if (!view.compare.on) return legend;
     const bool ofA = !legend.entries.empty();
     if (!ofA) legend = legendFor(view.compare.planetB, view.compare.settingsB->overlay);

@@ -56,6 +56,17 @@ TEST_F(FileControllerTest, aDroppedRegionsFileIsNoPreset) {
     EXPECT_EQ(next[0].as<ui::LoadRegions>()->file, "/maps/valley.regions.toml");
 }
 
+TEST_F(FileControllerTest, anAtlasIsShownAndIsNoPlanet) {
+    SettingsController settings;
+    CameraController camera;
+    ui::Commands next;
+    execute(files_, ui::OpenFile{"/maps/earth.atlas"}, {session_, settings, camera}, notices_, next);
+    ASSERT_EQ(next.size(), 1u);
+    ASSERT_TRUE(next[0].as<ui::OpenAtlas>());
+    EXPECT_EQ(next[0].as<ui::OpenAtlas>()->file, "/maps/earth.atlas");
+    EXPECT_FALSE(files_.opening);
+}
+
 // Its error is that of a trace, which names what is expected.
 TEST_F(FileControllerTest, aMissingTraceIsOpenedAsATrace) {
     SettingsController settings;

@@ -49,8 +49,11 @@ public:
     // fetching them. So state and level are passed in, not read from the node.
     std::uint32_t of(NodeIndex index, int level, ChunkState state) const {
         if (colouring_.by == NetColour::State) return states_[static_cast<std::size_t>(state)];
-        if (colouring_.by == NetColour::Region) {
-            const glm::vec3 colour = demandColour(data_.tree, data_.tree.nodes[index].demand);
+        if (colouring_.by == NetColour::Region || colouring_.by == NetColour::Atlas) {
+            const ChunkNode& node = data_.tree.nodes[index];
+            const glm::vec3 colour = colouring_.by == NetColour::Region
+                                         ? demandColour(data_.tree, node.demand)
+                                         : atlasColour(data_.atlas, node.id);
             return packedColour(isSeen(state) ? colour : glm::mix(colour, colouring_.ground, dimming));
         }
         const std::size_t shade = colouring_.by == NetColour::Level ? static_cast<std::size_t>(level)

@@ -50,12 +50,13 @@ struct NetData {
     double screenScalePx = 0;  // K'
     double tauPx = 1;
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
-    double nowS = 0;  // seconds since the planet was opened
+    double nowS = 0;                    // seconds since the planet was opened
+    const AtlasDrape* atlas = nullptr;  // for NetColour::Atlas; null without one
 };
 NetData netDataOf(const planet::Planet& planet);
 double epsPxOf(const NetData& data, const planet::ChunkNode& node);
 
-enum class NetColour : std::uint8_t { State, Level, Error, DeltaC, Age, Tight, Region };
+enum class NetColour : std::uint8_t { State, Level, Error, DeltaC, Age, Tight, Region, Atlas };
 struct NetColouring {
     NetColour by = NetColour::State;
     double errorScale = 1;  // OverlaySettings::errorScale

@@ -47,13 +47,13 @@ Legend stateLegend() {
 
 Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, const OverlaySettings& overlay) {
     if (state.colourBy == 0) return stateLegend();
-    constexpr std::array same = {ColourBy::None, ColourBy::Level,  ColourBy::Error, ColourBy::DeltaC,
-                                 ColourBy::Age,  ColourBy::DeltaC, ColourBy::Region};
+    constexpr std::array same = {ColourBy::None, ColourBy::Level,  ColourBy::Error,  ColourBy::DeltaC,
+                                 ColourBy::Age,  ColourBy::DeltaC, ColourBy::Region, ColourBy::Atlas};
     OverlaySettings asked = overlay;
     asked.colourBy = same[static_cast<std::size_t>(state.colourBy)];
     Legend legend = legendOf(asked, view.planet->views()[0].input.lod.tauPx,
                              static_cast<std::uint32_t>(deepestLevelOf(view.planet->tree().shape)),
-                             {.regions = legendRegions(*view.planet)});
+                             {.regions = legendRegions(*view.planet), .atlas = view.instruments.atlas.drape});
     if (state.colourBy == static_cast<int>(NetColour::Tight)) legend.title = "tight";  // uses delta_c's scale
     return legend;
 }
@@ -61,11 +61,11 @@ Legend legendOfNet(const EditorView& view, const QuadtreePanelState& state, cons
 void quadtreeControls(const EditorView& view, QuadtreePanelState& state) {
     choiceIndex("Colour by", state.colourBy, 0,
                 (std::string("state") + '\0' + "level" + '\0' + epsSymbol() + " / " + tauSymbol() + '\0' +
-                 "δc" + '\0' + "age" + '\0' + "tight" + '\0' + "region" + '\0')
+                 "δc" + '\0' + "age" + '\0' + "tight" + '\0' + "region" + '\0' + "atlas" + '\0')
                     .c_str(),
                 "Quantity shown by the colours: selection state, level, screen-space error relative to the "
-                "tolerance, geometric error δc, time since loading, the tight metric on the scale of δc, or "
-                "the region that decides. Except "
+                "tolerance, geometric error δc, time since loading, the tight metric on the scale of δc, "
+                "the region that decides, or the measure shown in the Atlas panel. Except "
                 "for the state, chunks that are not drawn are dimmed. The Overlay panel sets the scales.");
     if (button("Fit", "Shows the whole net. Double-clicking beside the faces does the same."))
         state.focus = {};
@@ -424,7 +424,8 @@ void quadtreePanel(const EditorView& view, QuadtreePanelState& state, ViewSettin
     if (!view.planet) return emptyState("No planet is open. Open one to see its quadtrees.");
     quadtreeControls(view, state);
     legendRows(legendOfNet(view, state, settings.overlay));
-    const NetData data = netDataOf(*view.planet);
+    NetData data = netDataOf(*view.planet);
+    data.atlas = view.instruments.atlas.drape;
     const float font = ImGui::GetFontSize();
     const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
     const ImVec2 room(ImGui::GetContentRegionAvail().x,

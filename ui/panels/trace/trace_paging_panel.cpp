@@ -28,7 +28,7 @@ std::string kindName(const EditorView& view, std::size_t kind) {
     return fmt::format("kind {}", kind);
 }
 
-std::string secondsText(double seconds) {
+std::string traceSecondsText(double seconds) {
     return std::isnan(seconds) ? "-" : millisecondsText(1000 * seconds);
 }
 
@@ -66,7 +66,7 @@ void queueTable(const EditorView& view, TracePagingPanelState& state, Commands& 
         traceNodeLink(of.node.id, view, commands, ImGuiSelectableFlags_SpanAllColumns);
         cell(kindName(view, of.kind));
         cell(of.isStarted ? "being loaded" : "requested", of.isStarted ? palette().accent : palette().text);
-        cell(secondsText(of.ageS));
+        cell(traceSecondsText(of.ageS));
         cell(std::isnan(of.priority) ? "-" : fmt::format("{:.3g}", static_cast<double>(of.priority)));
     });
     using Request = TracedRequest;
@@ -124,7 +124,7 @@ void stepTable(const EditorView& view, TracePagingPanelState& state, Commands& c
         const bool hasFailed = step.event.step == planet::TraceStep::Failed;
         cell(stepText(step.event.step), hasFailed ? palette().bad : palette().text);
         cell(kindName(view, step.event.kind));
-        cell(secondsText(latencyS(step)));
+        cell(traceSecondsText(latencyS(step)));
         cell(thread(step));
         cell(frame.reasons[row], palette().bad);
     });
@@ -177,8 +177,8 @@ void kindTable(const EditorView& view) {
         cell(countText(static_cast<double>(of.evicted)));
         const auto resident = view.trace.frame->resident[static_cast<std::size_t>(of.kind)];
         cell(countText(static_cast<double>(resident)));
-        cell(secondsText(of.latencyS.median));
-        cell(secondsText(of.latencyS.p99));
+        cell(traceSecondsText(of.latencyS.median));
+        cell(traceSecondsText(of.latencyS.p99));
     });
     using Kind = planet::TraceKindReport;
     endTable(exportTable<Kind>(
@@ -254,7 +254,7 @@ void starvationTable(const EditorView& view, Commands& commands) {
         const TracedStarvation& of = *rows[row];
         ImGui::TableNextColumn();
         traceFrameLink(of.firstFrame, view, commands);
-        cell((of.isOver ? "" : "> ") + secondsText(of.untilS - of.fromS));
+        cell((of.isOver ? "" : "> ") + traceSecondsText(of.untilS - of.fromS));
         cell(fmt::format("{}", of.mostNodes));
         cell(fmt::format("{:.2f} px", of.worstErrorPx));
     });
