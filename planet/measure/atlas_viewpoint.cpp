@@ -117,10 +117,10 @@ Result<void> AtlasMeter::measureStill(const View& view, AtlasFigures& figures,
     input.lodView = view;
     const std::uint64_t bytesBefore = planet_.paging().bytesRead();
     // A single call would not return soon enough after goOn has returned false.
-    constexpr double sliceS = atlasTimeoutS / 16;
-    for (double waitedS = 0; waitedS < atlasTimeoutS; waitedS += sliceS) {
+    constexpr int slices = 16;
+    for (int i = 0; i < slices; ++i) {
         if (!goOn()) return cancelled();
-        if (planet_.settle({&input, 1}, noUpload, sliceS)) break;
+        if (planet_.settle({&input, 1}, noUpload, atlasTimeoutS / slices)) break;
     }
     for (const BlockKind kind : {BlockKind::Colours, BlockKind::Normals}) planet_.takeTileChanges(kind);
     const SelectionCounters& drawn = planet_.selection().counters;
