@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-constexpr double stepS = 1.0 / 64;  // exact
+constexpr double retryStepS = 1.0 / 64;  // exact
 const ChunkId posXRoot{Face::PosX, 0, 0, 0};
 
 // A planet with colours of which told blocks fail, and which notes when each was read. Read by one thread at
@@ -88,9 +88,9 @@ ViewInput inputOf(const View& view, bool colours = false) {
 void fly(Planet& planet, Flaky& flaky, double seconds, bool colours = false,
          const View& view = viewAt(10, 20)) {
     const ViewInput input = inputOf(view, colours);
-    for (double flownS = 0; flownS < seconds; flownS += stepS) {
-        flaky.nowS += stepS;
-        planet.step({&input, 1}, noUpload, stepS);
+    for (double flownS = 0; flownS < seconds; flownS += retryStepS) {
+        flaky.nowS += retryStepS;
+        planet.step({&input, 1}, noUpload, retryStepS);
     }
 }
 
@@ -126,9 +126,9 @@ TEST(Retries, delaysDoubleUntilTheBlockFailsPermanently) {
     // A read that is asked for in one step ends in the next.
     const std::vector<double>& atS = flaky.readAtS[posXRoot];
     ASSERT_THAT(atS, SizeIs(4));
-    EXPECT_DOUBLE_EQ(atS[1] - atS[0], 0.5 + stepS);
-    EXPECT_DOUBLE_EQ(atS[2] - atS[1], 1.0 + stepS);
-    EXPECT_DOUBLE_EQ(atS[3] - atS[2], 2.0 + stepS);
+    EXPECT_DOUBLE_EQ(atS[1] - atS[0], 0.5 + retryStepS);
+    EXPECT_DOUBLE_EQ(atS[2] - atS[1], 1.0 + retryStepS);
+    EXPECT_DOUBLE_EQ(atS[3] - atS[2], 2.0 + retryStepS);
     EXPECT_EQ(planet->paging()[BlockKind::Heights].failed, 4u);
     EXPECT_EQ(planet->paging().failedPermanently(), 1u);
     EXPECT_EQ(planet->paging().awaitingRetry(), 0u);
@@ -248,7 +248,7 @@ TEST(Retries, ADiskThatFailsEveryReadIsNotFlooded) {
     std::map<BlockId, int> asked;
     for (int i = 0; i < 3000; ++i) {
         const ViewInput input = inputOf(viewAt(10, 0.12 * i), true);
-        planet->step({&input, 1}, noUpload, stepS);
+        planet->step({&input, 1}, noUpload, retryStepS);
         for (const BlockId& block : planet->tools().takeMoves().requested) ++asked[block];
     }
     EXPECT_GT(asked.size(), 6u);
@@ -263,7 +263,7 @@ TEST(Retries, OnlyBlocksThatAreWantedAreTriedAgain) {
     const ChunkId bad = childOf(posXRoot, 1);
     flaky.failing[bad] = {.left = 1};
     const auto planet = Planet::open(flaky.source(), simulatedRetry({.delayS = 1})).value();
-    while (planet->paging().awaitingRetry() == 0) fly(*planet, flaky, stepS, false, viewAt(0, 30, 2e4));
+    while (planet->paging().awaitingRetry() == 0) fly(*planet, flaky, retryStepS, false, viewAt(0, 30, 2e4));
     fly(*planet, flaky, 5, false, viewAt(0, 200, 2e4));
     EXPECT_EQ(flaky.reads(bad), 1u);
     EXPECT_TRUE(planet->settled());
@@ -418,7 +418,7 @@ TEST(Retries, OverARandomFlightWithATightBudgetAllThatIsSaidOfBlocksFitsTogether
         for (int i = 0; i < 1200; ++i) {
             ViewInput input = inputOf(viewAt(20 * std::sin(i * 0.01), i * 0.3, 2e4 + 50 * (i % 200)), true);
             input.lod.frustumCulling = input.lod.horizonCulling = false;
-            planet.step({&input, 1}, noUpload, stepS);
+            planet.step({&input, 1}, noUpload, retryStepS);
             ASSERT_EQ(facesDrawn(planet), 6) << i;
             if (random() % 150 == 0) planet.tools().retryFailed();
             if (random() % 100 == 0 && !planet.inspect().failedBlocks().empty())

@@ -13,7 +13,7 @@
 namespace planet {
 namespace {
 
-constexpr std::array<double, 2> shares = {0.5, 0.99};
+constexpr std::array<double, 2> askedShares = {0.5, 0.99};
 
 // Values over many powers of ten, of which some are equal.
 std::vector<float> deltas(std::size_t count) {
@@ -40,19 +40,19 @@ void addAll(const std::vector<float>& values, const Add& add) {
 TEST(DeltaRanks, PercentilesAreExactForAnyNumberOfValues) {
     for (const std::size_t count : {0U, 1U, 2U, 1000U, 65536U, 65537U, 300000U}) {
         const std::vector<float> values = deltas(count);
-        DeltaRanks ranks(shares);
+        DeltaRanks ranks(askedShares);
         addAll(values, [&](float value) { ranks.add(value); });
         const bool isMany = ranks.needsSecondPass();
         EXPECT_EQ(isMany, count > 65536);
         if (isMany) addAll(values, [&](float value) { ranks.addAgain(value); });
-        for (std::size_t i = 0; i < shares.size(); ++i)
-            EXPECT_EQ(ranks.percentile(i), percentileOf(std::vector(values), shares[i]))
+        for (std::size_t i = 0; i < askedShares.size(); ++i)
+            EXPECT_EQ(ranks.percentile(i), percentileOf(std::vector(values), askedShares[i]))
                 << count << " values";
     }
 }
 
 TEST(DeltaRanks, EqualValuesAreTheirOwnPercentile) {
-    DeltaRanks ranks(shares);
+    DeltaRanks ranks(askedShares);
     for (int i = 0; i < 70000; ++i) ranks.add(-0.0f);
     ASSERT_TRUE(ranks.needsSecondPass());
     for (int i = 0; i < 70000; ++i) ranks.addAgain(0.0f);
