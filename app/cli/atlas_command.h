@@ -33,7 +33,7 @@ struct AtlasOptions {
     ViewSettings view;
     std::filesystem::path diff;  // an earlier atlas; empty: none
     std::vector<planet::AtlasLimit> limits;
-    // What the command line changes of the settings, for a survey with those of an earlier atlas.
+    // The options that change settings; a survey with the settings of an earlier atlas applies them to those.
     ViewTexts changes;
 };
 

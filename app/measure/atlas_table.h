@@ -42,7 +42,7 @@ std::string atlasCsv(const planet::Atlas& atlas);
 // Returns all viewpoints with the spreads. run: its figures are left out if nothing was measured.
 nlohmann::ordered_json atlasJson(const planet::Atlas& atlas, const planet::AtlasRun& run, double treeS);
 
-// What became of each limit.
+// Says whether a limit was met, and where it was not.
 struct AtlasVerdict {
     planet::AtlasLimit limit;
     std::vector<planet::AtlasMove> exceeded;  // the worst first; empty for the number of chunks

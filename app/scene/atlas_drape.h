@@ -11,7 +11,7 @@
 
 namespace worldy {
 
-// Of one measure at one altitude.
+// Holds the cells of one measure at one altitude, to be drawn.
 struct AtlasDrape {
     planet::AtlasMeasure measure = planet::AtlasMeasure::EpsPx;
     // The values of cells that are not split, and of all coarser squares the largest below.

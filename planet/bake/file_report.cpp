@@ -33,7 +33,7 @@ namespace {
 // --- reportFile
 // -----------------------------------------------------------------------------------------------------
 
-// What a part of the file holds of a level.
+// Counts and sums over the chunks of a level in a part of the file.
 struct LevelTally {
     std::uint64_t chunks = 0;
     std::uint64_t leaves = 0;

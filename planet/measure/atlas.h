@@ -87,7 +87,7 @@ struct AtlasViewpoint {
     AtlasFigures figures{};
 };
 
-// What was surveyed, and how. Two surveys may be joined only if these are equal.
+// Says which planet was surveyed and with which settings. Two surveys may be joined only if these are equal.
 struct AtlasSurvey {
     std::string bake;            // the name of the chunk file, for users
     std::uint64_t bakeHash = 0;  // of its header and its root blocks

@@ -30,7 +30,7 @@ namespace planet {
 
 namespace {
 
-// What is left of a round.
+// A viewpoint that a round has still to measure.
 struct AtlasTask {
     AtlasPlace place;
     std::optional<double> eyeM;

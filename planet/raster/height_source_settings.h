@@ -38,7 +38,7 @@ struct HeightSourceSettings {
     FileCalls fileCalls = systemFileCalls();  // for raw faces and the temporary file
     // A request ends the opening of a source, which may read every sample, with an Error of the kind Cancelled.
     std::stop_token stop{};
-    // Of a process that opens the source together with others; null: it reads everything itself.
+    // Set in a process that opens the source together with others. Null: it reads everything itself.
     std::shared_ptr<const SurveyShare> share{};
 };
 

@@ -299,7 +299,7 @@ double commonStepM(const RasterMosaic& mosaic) {
     return same ? first : 0;
 }
 
-// What the blocks of a part hold.
+// Joins the surveys of the blocks of a part.
 struct PartSurvey {
     HeightStatistics statistics;
     std::uint64_t sampleCount = 0;
@@ -360,7 +360,7 @@ PartSurvey surveyPart(const RasterArea& area, const SurveyShare& part, const std
     return survey;
 }
 
-// What processes that survey the same area have in common.
+// Returns numbers that are the same in all processes that survey the same area.
 std::array<std::int64_t, 6> identityOf(const RasterArea& area) {
     const GridRect& bounds = area.mosaic.bounds();
     return {static_cast<std::int64_t>(area.mosaic.tiles().size()),

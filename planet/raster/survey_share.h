@@ -10,8 +10,8 @@
 
 namespace planet {
 
-// What one of the processes does. All open the same source with the same settings, each on one thread, so they meet at the same
-// surveys in the same order.
+// Tells one of the processes its part. All open the same source with the same settings, each on one thread, so they meet at the
+// same surveys in the same order.
 struct SurveyShare {
     int part = 0;  // [0, parts): this process reads the blocks whose number leaves this remainder
     int parts = 1;

@@ -1,7 +1,6 @@
 #include "planet/bake/job/shared_opening.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "planet/base/little_endian.h"
 #include "planet/source/source_parts.h"

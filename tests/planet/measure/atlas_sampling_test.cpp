@@ -1,4 +1,4 @@
-// Where an atlas looks: everywhere at first, then where neighbours differ and where the worst is.
+// A survey looks everywhere at first, then where neighbours differ and where the worst is.
 #include "planet/measure/atlas_sampling.h"
 
 #include <gtest/gtest.h>

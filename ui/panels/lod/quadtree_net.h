@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "app/scene/atlas_drape.h"
 #include "planet/chunk_explanation.h"
 #include "planet/planet.h"
 #include "ui/model/net_cells.h"
