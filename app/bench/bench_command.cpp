@@ -111,7 +111,7 @@ void print(const Section& section) {
     for (const BenchRow& row : section.rows) {
         const std::string ratio =
             row.yardstick.empty() ? "" : fmt::format("{} x {}", spreadText(row.ratio), row.yardstick);
-        fmt::print("  {:<44}{:<16}{:>28} {:<11}{}{}\n", row.subject, row.quantity, spreadText(row.value),
+        fmt::print("  {:<48}{:<16}{:>28} {:<11}{}{}\n", row.subject, row.quantity, spreadText(row.value),
                    row.unit, ratio, aimText(row));
     }
     flushStandardOutput();
@@ -283,7 +283,7 @@ void print(const BenchComparison& comparison) {
     for (const BenchChange& change : comparison.changes) {
         if (std::exchange(part, change.of.part) != change.of.part) fmt::print("\n{}\n", part);
         const BenchRow& row = change.of.row;
-        fmt::print("  {:<44}{:<16}{:>26} -> {:<26} {:<11}{}\n", row.subject, row.quantity,
+        fmt::print("  {:<48}{:<16}{:>26} -> {:<26} {:<11}{}\n", row.subject, row.quantity,
                    spreadText(change.a), spreadText(change.b),
                    change.isRatio ? "x " + row.yardstick : row.unit, verdictText(change));
     }

@@ -201,7 +201,7 @@ void Pager::serve(std::size_t index, const std::stop_token& stop, Lock& lock) {
     endPrefetch(request, std::chrono::duration<double>(reading.since - startedAt_).count());
     const std::uint32_t bytes = fails ? 0 : request.location.size;
     finished_.push_back({std::move(request), std::move(block), taken.count(), bytes});
-    loadFinished_.notify_all();
+    if (hasEnoughFinished()) loadFinished_.notify_all();
 }
 
 // Waits as long as the injected fault says, even if the settings change meanwhile. Returns true if the read
@@ -378,10 +378,19 @@ std::optional<FinishedLoad> Pager::takeFinished() {
     return load;
 }
 
-bool Pager::waitForFinished(Clock::time_point until) {
+bool Pager::waitForFinished(Clock::time_point until, std::size_t count) {
+    assert(count >= 1);
     Lock lock(mutex_);
-    loadFinished_.wait_until(lock, until, [&] { return !finished_.empty() || statusLocked().atRest(); });
+    awaited_ = count;
+    loadFinished_.wait_until(lock, until, [this] { return hasEnoughFinished(); });
     return !finished_.empty();
+}
+
+bool Pager::hasEnoughFinished() const {
+    if (finished_.size() >= awaited_) return true;
+    if (mayTake()) return false;
+    const PagerStatus status = statusLocked();
+    return status.atRest() || (status.finished > 0 && status.loading == 0);
 }
 
 PagerStatus Pager::status() const {

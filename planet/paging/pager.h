@@ -160,9 +160,9 @@ public:
     // reads the block.
     std::optional<FinishedLoad> takeFinished();
 
-    // Waits until a load is finished, `until` has passed, or nothing remains to wait for. Returns whether a
-    // load is finished.
-    bool waitForFinished(std::chrono::steady_clock::time_point until);
+    // Waits until `count` loads are finished, `until` has passed, or nothing remains to wait for. Returns whether a
+    // load is finished. count: >= 1; fewer are enough if no loader reads and none may begin to.
+    bool waitForFinished(std::chrono::steady_clock::time_point until, std::size_t count = 1);
 
     PagerStatus status() const;
     // Returns the reads in progress, longest first.
@@ -200,6 +200,7 @@ private:
     void serve(std::size_t index, const std::stop_token& stop, Lock& lock);
     bool waitForInjectedDelay(const Reading& reading, const std::stop_token& stop, Lock& lock);
     bool mayTake() const;
+    bool hasEnoughFinished() const;
     PagingRequest takeNext();
     double timeS() const;
     double prefetchLoaders() const;
@@ -221,6 +222,7 @@ private:
     std::condition_variable_any badDiskChanged_;
     PagingQueue queue_;
     std::deque<FinishedLoad> finished_;
+    std::size_t awaited_ = 1;  // finished loads that the owner waits for
     std::size_t loadersWanted_ = 0;
     std::array<Loader, maxLoaderThreads> loaders_{};
     bool paused_ = false;

@@ -1,9 +1,11 @@
 #include "planet/select/lod_select.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -138,7 +140,7 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     const double epsPx = seen.deltaM * frame.scalePx / seen.distanceM;
     const double natural = naturalMorph(frame.settings, above, seen, epsPx);
     const float target = above.merging ? 1 : splitWaits ? 0 : static_cast<float>(natural);
-    DrawItem item;
+    DrawItem& item = out.draw.emplace_back();
     item.node = seen.index;
     item.id = node.id;
     item.slot = node.slot;
@@ -153,11 +155,10 @@ void draw(const Frame& frame, const Seen& seen, const Above& above, bool splitWa
     item.morph = fadedMorph(frame.before, node.id, last, above, target);
     item.splitWaits = splitWaits;
     item.mergeWaits = above.merging;
-    walk.indexOf[place] = static_cast<std::uint32_t>(out.draw.size());
+    walk.indexOf[place] = static_cast<std::uint32_t>(out.draw.size() - 1);
     walk.placeOf.push_back(place);
     walk.shownBefore.push_back(last);
     walk.cellSpanM.push_back(cellSpanM(frame.tree.shape, node));
-    out.draw.push_back(item);
     out.counters.fading += item.morph != target || splitWaits || above.merging;
     out.counters.deepestLevel = std::max<std::uint32_t>(out.counters.deepestLevel, node.id.level);
     out.counters.worstEpsPx = std::max(out.counters.worstEpsPx, item.epsPx);
@@ -609,30 +610,60 @@ void selectOnce(const Frame& frame, Selection& out) {
     EdgeJoiner(frame, walk).join();
 }
 
-// Sorts the items near to far. Items are large, so their order is found first, and then each is moved once.
-void sortByDistance(std::vector<DrawItem>& draw) {
-    struct Key {
-        float distanceM;
-        std::uint32_t index;
+// An item's place in the order near to far: the bits of its distance above its index in `draw`. The distance is not
+// negative, so its bits are in the order of the distances.
+using DistanceKey = std::uint64_t;
+
+constexpr int indexBits = 32;
+
+DistanceKey distanceKey(float distanceM, std::uint32_t index) {
+    return DistanceKey{std::bit_cast<std::uint32_t>(distanceM)} << indexBits | index;
+}
+
+std::uint32_t indexOf(DistanceKey key) {
+    return static_cast<std::uint32_t>(key);
+}
+
+// Sorts many keys one byte of the distances after the other (LSD radix sort), which takes no comparisons.
+void sortKeys(std::vector<DistanceKey>& keys) {
+    constexpr std::size_t few = 256;  // for which counting takes longer than comparing
+    if (keys.size() < few) return std::sort(keys.begin(), keys.end());
+    constexpr std::size_t bytes = 4, values = 256;
+    const auto byteOf = [](DistanceKey key, std::size_t byte) {
+        return static_cast<std::size_t>(key >> (indexBits + 8 * byte)) % values;
     };
-    std::vector<Key> keys(draw.size());
-    for (std::uint32_t i = 0; i < draw.size(); ++i) keys[i] = {draw[i].distanceM, i};
-    std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-        return a.distanceM != b.distanceM ? a.distanceM < b.distanceM : draw[a.index].id < draw[b.index].id;
-    });
-    // keys[to].index is where the item of place `to` comes from. Items move along the cycles of these places.
-    for (std::uint32_t start = 0; start < draw.size(); ++start) {
-        if (keys[start].index == start) continue;
-        const DrawItem first = draw[start];
-        std::uint32_t to = start;
-        while (keys[to].index != start) {
-            const std::uint32_t from = std::exchange(keys[to].index, to);
-            draw[to] = draw[from];
-            to = from;
-        }
-        draw[to] = first;
-        keys[to].index = to;
+    std::array<std::array<std::uint32_t, values>, bytes>
+        next{};  // first counts, then where the next key goes
+    for (const DistanceKey key : keys) {
+        for (std::size_t byte = 0; byte < bytes; ++byte) ++next[byte][byteOf(key, byte)];
     }
+    std::vector<DistanceKey> sorted(keys.size());
+    for (std::size_t byte = 0; byte < bytes; ++byte) {
+        if (next[byte][byteOf(keys[0], byte)] == keys.size()) continue;  // all are equal
+        std::exclusive_scan(next[byte].begin(), next[byte].end(), next[byte].begin(), std::uint32_t{0});
+        for (const DistanceKey key : keys) sorted[next[byte][byteOf(key, byte)]++] = key;
+        keys.swap(sorted);
+    }
+}
+
+// Sorts the items near to far, and those at the same distance by id. Items are large, so their order is found first, and
+// then each is copied once.
+void sortByDistance(std::vector<DrawItem>& draw) {
+    std::vector<DistanceKey> keys(draw.size());
+    for (std::uint32_t i = 0; i < draw.size(); ++i) keys[i] = distanceKey(draw[i].distanceM, i);
+    sortKeys(keys);
+    for (auto begin = keys.begin(); begin != keys.end();) {
+        const DistanceKey beyond = (*begin >> indexBits) + 1;
+        const auto end =
+            std::find_if(begin + 1, keys.end(), [&](DistanceKey key) { return key >> indexBits >= beyond; });
+        std::sort(begin, end,
+                  [&](DistanceKey a, DistanceKey b) { return draw[indexOf(a)].id < draw[indexOf(b)].id; });
+        begin = end;
+    }
+    std::vector<DrawItem> sorted;
+    sorted.reserve(draw.size());
+    for (const DistanceKey key : keys) sorted.push_back(draw[indexOf(key)]);
+    draw.swap(sorted);
 }
 
 void countTriangles(const ChunkTree& tree, Selection& out) {

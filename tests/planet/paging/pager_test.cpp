@@ -80,6 +80,22 @@ TEST(Pager, OneLoaderTakesTheMostUrgentFirst) {
     EXPECT_THAT(order, testing::ElementsAre(Face::PosX, Face::NegY, Face::PosY, Face::NegX));
 }
 
+TEST(Pager, waitingForSeveralLoadsEndsWithTheLastOfThem) {
+    Pager pager({loadFake}, 1);
+    pager.setPaused(true);
+    for (const Face face : {Face::NegX, Face::PosY, Face::NegY}) submit(pager, rootRequest(face));
+    for (int i = 0; i < 3; ++i) pager.loadOne();
+    EXPECT_TRUE(pager.waitForFinished(muchLater(), 3));
+    EXPECT_EQ(pager.status().finished, 3u);
+}
+
+TEST(Pager, waitingForMoreLoadsThanThereAreEndsWithTheLastOne) {
+    Pager pager({loadFake}, 2);
+    for (const Face face : {Face::NegX, Face::PosY, Face::NegY}) submit(pager, rootRequest(face));
+    EXPECT_TRUE(pager.waitForFinished(muchLater(), 100));
+    EXPECT_EQ(pager.status().finished, 3u);
+}
+
 TEST(Pager, SeveralLoadersReadAtOnce) {
     Gate gate;
     Pager pager({[&](const ChunkId& parent, BlockLocation location, StepsView heights) {

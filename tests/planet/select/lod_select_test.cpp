@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -241,9 +242,13 @@ TEST(LodSelect, TheSameInputGivesTheSameAnswer) {
 
 TEST(LodSelect, ListsAreSortedAndTiesAreInOrderOfIds) {
     std::mt19937 random(19);
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    std::size_t most = 0;
     for (int i = 0; i < 50; ++i) {
         const Selection selection =
             select(patchyTree(random, 0, 4), randomView(random, 1e5), withoutCulling(1));
+        fewest = std::min(fewest, selection.draw.size());
+        most = std::max(most, selection.draw.size());
         for (std::size_t k = 1; k < selection.draw.size(); ++k) {
             const DrawItem& a = selection.draw[k - 1];
             const DrawItem& b = selection.draw[k];
@@ -255,6 +260,9 @@ TEST(LodSelect, ListsAreSortedAndTiesAreInOrderOfIds) {
             EXPECT_TRUE(a.priority > b.priority || (a.priority == b.priority && a.parentId < b.parentId));
         }
     }
+    // Few and many items are sorted in different ways.
+    EXPECT_LT(fewest, 200u);
+    EXPECT_GT(most, 300u);
 }
 
 TEST(LodSelect, AParentWaitsForItsChildrenAndIsDrawnMeanwhile) {
