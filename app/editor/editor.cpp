@@ -410,8 +410,9 @@ FrameActivity Editor::activity(const Session& session, const FrameStats& stats) 
     const auto isLoading = [&](const Scene* scene) {
         return scene && !frames_.paused && !paging_.paused && !scene->planet->settled();
     };
+    const auto isReadingColours = [](const Scene* scene) { return scene && scene->colourReading; };
     const TraceController& trace = files_.trace;
-    const std::array<std::pair<bool, FrameActivity>, 15> activities = {{
+    const std::array<std::pair<bool, FrameActivity>, 16> activities = {{
         {ImGui::IsAnyMouseDown(), {Activity::Motion, "a mouse button is held"}},
         {!(frames_.lastView == viewport_.main.view && frames_.lastObserverView == viewport_.observer.view),
          {Activity::Motion, "the camera moves"}},
@@ -420,6 +421,9 @@ FrameActivity Editor::activity(const Session& session, const FrameStats& stats) 
         {!frames_.paused && stats.selection.fading > 0, {Activity::Motion, "levels fade"}},
         {!frames_.paused && !replaying() && isSettling(settings_.governing),
          {Activity::Motion, "the tolerance follows a budget"}},
+        {isReadingColours(shownScene(session)) ||
+             (compare_.other && isReadingColours(&compare_.other->planet.scene)),
+         {Activity::Motion, "the colour image is read"}},
         {stats.render.standIn || (compare_.other && compare_.other->stats.render.standIn),
          {Activity::Motion, "shaders are compiled"}},
         {recording_.recorder.has_value(), {Activity::Motion, "a flight is recorded"}},

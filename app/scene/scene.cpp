@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <stop_token>
 #include <utility>
 
 #include "app/base/picture_file.h"
@@ -57,11 +58,44 @@ void fitLayers(Scene& scene, const LayerSettings& layers, planet::gl::LayerDrawi
     drawing.pictures = picturesOf(layers.set, scene.layers);
 }
 
+// Takes a picture as the colour image.
+planet::Result<void> giveColourImage(Scene& scene, const planet::Result<Picture>& image) {
+    const std::filesystem::path file = std::exchange(scene.colourImage, {});
+    if (!image) return tl::unexpected(image.error());
+    const planet::Result<void> made =
+        scene.renderer.chunks().setColourImage(image->rgb, image->width, image->height);
+    scene.hasColourImage = made.has_value();
+    return made.map_error([&](planet::Error error) {
+        error.message = fmt::format("{}: cannot be drawn, using the height ramp instead: {}", file.string(),
+                                    error.message);
+        return error;
+    });
+}
+
+// Returns the picture once another thread has read it.
+std::optional<planet::Result<Picture>> pictureReadBeside(Scene& scene) {
+    if (!scene.colourReading) {
+        scene.colourReading = std::make_unique<PictureJob>(
+            [file = scene.colourImage](const std::stop_token&) { return readPlanetPicture(file); });
+    }
+    std::optional<planet::Result<Picture>> image = scene.colourReading->takeResult();
+    if (image) scene.colourReading.reset();
+    return image;
+}
+
 // Reads the colour image when it is first drawn, because that takes as long as opening a planet.
-void fitColourImage(Scene& scene, const SurfaceSettings& surface) {
-    if (scene.colourImage.empty() || !drawsColourImage(scene, surface)) return;
-    if (const planet::Result<void> read = readColourImage(scene); !read)
-        scene.problems.push_back(read.error().message);
+void fitColourImage(Scene& scene, const SurfaceSettings& surface, planet::gl::ShaderWait wait) {
+    // What is being read is kept, even if it is not drawn any more.
+    if (scene.colourImage.empty() || (!scene.colourReading && !drawsColourImage(scene, surface))) return;
+    planet::Result<void> given;
+    if (wait == planet::gl::ShaderWait::Never) {
+        const std::optional<planet::Result<Picture>> image = pictureReadBeside(scene);
+        if (!image) return;
+        given = giveColourImage(scene, *image);
+    } else {
+        given = readColourImage(scene);
+    }
+    if (!given) scene.problems.push_back(given.error().message);
 }
 
 // Returns the settings without the features that are too slow here.
@@ -131,18 +165,9 @@ bool drawsColourImage(const Scene& scene, const SurfaceSettings& surface) {
 }
 
 planet::Result<void> readColourImage(Scene& scene) {
-    const std::filesystem::path file = std::exchange(scene.colourImage, {});
-    if (file.empty()) return {};
-    const planet::Result<Picture> image = readPlanetPicture(file);
-    if (!image) return tl::unexpected(image.error());
-    const planet::Result<void> made =
-        scene.renderer.chunks().setColourImage(image->rgb, image->width, image->height);
-    scene.hasColourImage = made.has_value();
-    return made.map_error([&](planet::Error error) {
-        error.message = fmt::format("{}: cannot be drawn, using the height ramp instead: {}", file.string(),
-                                    error.message);
-        return error;
-    });
+    scene.colourReading.reset();
+    return scene.colourImage.empty() ? planet::Result<void>{}
+                                     : giveColourImage(scene, readPlanetPicture(scene.colourImage));
 }
 
 planet::Result<void> applyLiveSettings(Scene& scene, const ViewSettings& asked, bool pagingPaused,
@@ -191,13 +216,14 @@ void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings&
     planet::gl::RenderSettings render = renderSettingsOf(settings, renderView, scene.planet->tree());
     render.stitched = stitched;
     fitLayers(scene, settings.surface.layers, render.layers);
-    fitColourImage(scene, settings.surface);
+    fitColourImage(scene, settings.surface, wait);
     scene.renderer.draw(*scene.planet, renderView, render, {.items = items, .tints = tints, .wait = wait});
     // The GPU may have had no room for the planet's own colours.
-    fitColourImage(scene, settings.surface);
+    fitColourImage(scene, settings.surface, wait);
     traceClipmap(scene.renderer.chunks(), scene.planet->lastStep().nowS, scene.clipmap);
     scene.drawCpuMs += watch.elapsedMs();
     addCounters(scene.renderer.chunks().counters(), scene.drawn);
+    scene.drawn.standIn |= scene.colourReading != nullptr;
 }
 
 std::vector<std::string> takeProblems(Scene& scene) {

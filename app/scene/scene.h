@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "app/base/job.h"
+#include "app/base/picture.h"
 #include "app/data/layer_pictures.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/clipmap_trace.h"
@@ -20,11 +22,14 @@
 
 namespace worldy {
 
+using PictureJob = Job<planet::Result<Picture>>;
+
 struct Scene {
     std::unique_ptr<planet::Planet> planet;
     planet::gl::PlanetRenderer renderer;
-    std::filesystem::path colourImage{};  // still to be read; empty: there is none, or it was read
-    bool hasColourImage = false;          // the renderer has it
+    std::filesystem::path colourImage{};          // still to be read; empty: there is none, or it was read
+    std::unique_ptr<PictureJob> colourReading{};  // set while another thread reads the colour image
+    bool hasColourImage = false;                  // the renderer has it
     // Sums over all draws since the last step; the observer draws a second picture per frame.
     double drawCpuMs = 0;
     planet::gl::RenderCounters drawn{};
@@ -53,7 +58,7 @@ planet::Result<Scene> openScene(const SceneConfig& config, const ViewSettings& s
 // Returns whether settings draw the colour image: a planet has no colours of its own, or does not draw them.
 bool drawsColourImage(const Scene& scene, const SurfaceSettings& surface);
 // Reads the colour image, if it is still to be read. Otherwise drawScene does so when it is first drawn, and tells a
-// problem.
+// problem. Unless drawScene waits for shaders, another thread reads it, and the height ramp is drawn meanwhile.
 planet::Result<void> readColourImage(Scene& scene);
 
 // The loading priority of an observer with its own selection, relative to the LOD view.

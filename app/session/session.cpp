@@ -471,6 +471,7 @@ ui::DataView dataViewOf(const Session& session, std::span<const fs::path> recent
     view.chunkFile = data.chunkFile;
     view.isFirstLook = open && open->isFirstLook;
     view.hasColourImage = open && (open->scene.hasColourImage || !open->scene.colourImage.empty());
+    view.isReadingColourImage = open && open->scene.colourReading != nullptr;
     view.hasPreviousBake = session.previous.has_value();
     view.showsPreviousBake = session.showsPrevious;
     if (session.previous) view.previousName = summaryOf(*session.previous);

@@ -65,7 +65,8 @@ struct DataView {
     std::filesystem::path chunkFile;  // the file that is drawn
     bool isFirstLook = false;         // a coarse bake, shown until the whole one is done
     bool hasColourImage = false;
-    bool hasPreviousBake = false;  // kept for comparison
+    bool isReadingColourImage = false;  // the height ramp is drawn meanwhile
+    bool hasPreviousBake = false;       // kept for comparison
     bool showsPreviousBake = false;
     std::string previousName;                       // "33 vertices, 2049 samples, 5.1 MiB"
     std::string problem;                            // why there is nothing to show

@@ -270,7 +270,9 @@ std::string pausedText() {
 
 std::vector<ViewportBadge> viewportBadges(const EditorView& view, const ViewSettings& settings) {
     std::vector<ViewportBadge> badges;
-    if (view.frames.stats.render.standIn) {
+    if (view.data.isReadingColourImage) {
+        badges.push_back({"Reading the colour image: height ramp drawn", palette().warning});
+    } else if (view.frames.stats.render.standIn) {
         const bool firstAir = view.instruments.light.air.working && view.instruments.light.air.tablesMs == 0;
         badges.push_back({firstAir ? "Computing the atmosphere: analytic model drawn"
                                    : "Compiling shaders; stand-in shaders used",

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <future>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <stop_token>
 
 #include "app/base/picture_file.h"
 #include "app/scene/offscreen.h"
@@ -336,6 +339,34 @@ TEST_F(ClipmapScene, theColourImageIsReadWhenItIsDrawn) {
     EXPECT_TRUE(scene.hasColourImage);
     EXPECT_EQ(*std::max_element(red.begin(), red.end()), 255);
     for (std::size_t i = 0; i < red.size(); i += 3) EXPECT_EQ(red[i + 1], 0);
+    EXPECT_THAT(takeProblems(scene), testing::IsEmpty());
+}
+
+TEST_F(ClipmapScene, framesGoOnWhileTheColourImageIsRead) {
+    Scene scene = openColoured();
+    const std::filesystem::path image = folder_ / "colour.png";
+    ASSERT_TRUE(writePicture({2, 1, {255, 0, 0, 255, 0, 0}}, image));
+    settings_.surface.streamed = false;
+    settings_.surface.surface = planet::gl::SurfaceColour::Image;
+    settledPicture(scene, ColourMode::Tiles);  // compiles the shaders
+    scene.colourImage = image;
+    std::promise<void> goOn;
+    scene.colourReading =
+        std::make_unique<PictureJob>([&image, mayGoOn = goOn.get_future().share()](const std::stop_token&) {
+            mayGoOn.wait();
+            return readPlanetPicture(image);
+        });
+    const auto drawFrame = [&] {
+        scene.drawn = {};
+        drawScene(scene, view_, settings_, 0, {}, planet::gl::ShaderWait::Never);
+    };
+    drawFrame();
+    EXPECT_FALSE(scene.hasColourImage);
+    EXPECT_TRUE(scene.drawn.standIn);
+    goOn.set_value();
+    while (scene.colourReading) drawFrame();
+    EXPECT_TRUE(scene.hasColourImage);
+    EXPECT_FALSE(scene.drawn.standIn);
     EXPECT_THAT(takeProblems(scene), testing::IsEmpty());
 }
 

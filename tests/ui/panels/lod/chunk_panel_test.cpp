@@ -106,13 +106,13 @@ TEST_F(ChunkPanel, BadgesTellWhatChangesHowThePictureIsRead) {
     ViewSettings settings;
     EXPECT_TRUE(viewportBadges(view, settings).empty());
     view.camera.lodFrozen = view.frames.paused = view.pagingPaused = true;
-    view.data.showsPreviousBake = true;
+    view.data.showsPreviousBake = view.data.isReadingColourImage = true;
     settings.paging.badDisk.failureRate = 0.1;
     settings.overlay.wireframe = settings.overlay.cube = true;
     std::string all;
     for (const ViewportBadge& badge : viewportBadges(view, settings)) all += badge.text + '\n';
-    for (const char* part : {"Paused", "LOD frozen", "Previous bake", "Paging paused", "I/O fault injection",
-                             "Wireframe", "Unprojected cube"}) {
+    for (const char* part : {"Reading the colour image", "Paused", "LOD frozen", "Previous bake",
+                             "Paging paused", "I/O fault injection", "Wireframe", "Unprojected cube"}) {
         EXPECT_NE(all.find(part), std::string::npos) << part;
     }
 }
