@@ -28,6 +28,38 @@ void advance(Enum& value, int count) {
     value = static_cast<Enum>((static_cast<int>(value) + 1) % count);
 }
 
+// A place in the menus, or none, to which actions are added.
+struct MenuPlace {
+    List& list;
+    Menu menu = Menu::None;
+    int group = 0;
+    std::string submenu{};
+
+    // keys: by default. The reference is valid until the next action is added.
+    Action& add(std::string id, std::string name, std::string help, std::vector<const char*> keys = {},
+                std::function<void(const Context&)> act = {},
+                std::function<std::string(const Context&)> whyNot = {}) const {
+        list.push_back({.id = std::move(id),
+                        .name = std::move(name),
+                        .help = std::move(help),
+                        .menu = menu,
+                        .group = group,
+                        .submenu = submenu,
+                        .keys = std::move(keys),
+                        .act = std::move(act),
+                        .whyNot = std::move(whyNot)});
+        return list.back();
+    }
+
+    // Adds an action that turns a setting on and off.
+    void toggle(const char* id, const char* name, const char* help, std::vector<const char*> keys,
+                const char* setting, bool& (*of)(const Context&)) const {
+        Action& action = add(id, name, help, std::move(keys), [of](const Context& c) { of(c) = !of(c); });
+        action.setting = setting;
+        action.isOn = of;
+    }
+};
+
 // Returns an action that sends a command.
 template <class Kind>
 auto sends(const Kind& command) {
@@ -52,82 +84,40 @@ std::vector<ActionChoice> recentFiles(const Context& c) {
 }
 
 void addFile(List& list) {
-    list.push_back({.id = "open",
-                    .name = "Open...",
-                    .help = "Opens a file: a planet, a picture, settings, a flight or a trace.",
-                    .menu = Menu::File,
-                    .keys = {"Ctrl+O"},
-                    .act = sends(AskForFile{})});
-    list.push_back(
-        {.id = "open_recent",
-         .name = "Open recent",
-         .help = "Opens a file that was open before.",
-         .menu = Menu::File,
-         .whyNot = [](const Context& c) { return unless(!c.view.data.recent.empty(), "No recent files."); },
-         .choices = recentFiles,
-         .choiceKind = PaletteKind::File});
-    list.push_back({.id = "attach",
-                    .name = "Attach to an engine...",
-                    .help = "Shows the Trace panel, which attaches to a running engine.",
-                    .menu = Menu::File,
-                    .act = [](const Context& c) { showPanel(PanelId::Trace, c.workspace); }});
-    list.push_back({.id = "compare_trace",
-                    .name = "Compare the trace with...",
-                    .help = "Asks for a second trace of the same flight, and compares the open trace with it "
-                            "frame by frame.",
-                    .menu = Menu::File,
-                    .act = sends(AskForFile{FilePurpose::TraceB}),
-                    .whyNot = [](const Context& c) {
-                        if (c.view.trace.file.empty()) return std::string("No trace is open.");
-                        return unless(!c.view.trace.compared.running, "A comparison is running.");
-                    }});
-    list.push_back(
-        {.id = "resume",
-         .name = "Go on with the last session",
-         .help = "A start without a file opens the planet, the camera, the trace, the comparison and the "
-                 "ruler of the last session.",
-         .menu = Menu::File,
-         .setting = "window.resume",
-         .act = [](const Context& c) { c.workspace.preferences.resume = !c.workspace.preferences.resume; },
-         .isOn = [](const Context& c) { return c.workspace.preferences.resume; }});
-    list.push_back({.id = "screenshot",
-                    .name = "Screenshot",
-                    .help = "Saves a picture of the planet with its settings.",
-                    .menu = Menu::File,
-                    .group = 1,
-                    .keys = {"F12"},
-                    .act = sends(TakeScreenshot{false}),
-                    .whyNot = needsPlanet});
-    list.push_back({.id = "screenshot_with_panels",
-                    .name = "Screenshot with panels",
-                    .help = "Saves a picture of the window.",
-                    .menu = Menu::File,
-                    .group = 1,
-                    .keys = {"Shift+F12"},
-                    .act = sends(TakeScreenshot{true})});
-    list.push_back({.id = "copy_command_line",
-                    .name = "Copy as command line",
-                    .help = "Copies a worldy shot command that draws this view with these settings.",
-                    .menu = Menu::File,
-                    .group = 1,
-                    .keys = {"Ctrl+Shift+C"},
-                    .act = sends(CopyCommandLine{}),
-                    .whyNot = needsPlanet});
-    list.push_back(
-        {.id = "save_report",
-         .name = "Save session report...",
-         .help = "Saves the settings, measurements and notes of this session as a page with pictures.",
-         .menu = Menu::File,
-         .group = 1,
-         .act = sends(SaveReport{}),
-         .whyNot = needsPlanet});
-    list.push_back({.id = "quit",
-                    .name = "Quit",
-                    .help = "Saves the settings and ends Worldy.",
-                    .menu = Menu::File,
-                    .group = 2,
-                    .keys = {"Ctrl+Q"},
-                    .act = sends(Quit{})});
+    const MenuPlace file{list, Menu::File}, saving{list, Menu::File, 1}, leaving{list, Menu::File, 2};
+    file.add("open", "Open...", "Opens a file: a planet, a picture, settings, a flight or a trace.",
+             {"Ctrl+O"}, sends(AskForFile{}));
+    Action& openRecent = file.add("open_recent", "Open recent", "Opens a file that was open before.");
+    openRecent.whyNot = [](const Context& c) {
+        return unless(!c.view.data.recent.empty(), "No recent files.");
+    };
+    openRecent.choices = recentFiles;
+    openRecent.choiceKind = PaletteKind::File;
+    file.add("attach", "Attach to an engine...", "Shows the Trace panel, which attaches to a running engine.",
+             {}, [](const Context& c) { showPanel(PanelId::Trace, c.workspace); });
+    file.add("compare_trace", "Compare the trace with...",
+             "Asks for a second trace of the same flight, and compares the open trace with it "
+             "frame by frame.",
+             {}, sends(AskForFile{FilePurpose::TraceB}), [](const Context& c) {
+                 if (c.view.trace.file.empty()) return std::string("No trace is open.");
+                 return unless(!c.view.trace.compared.running, "A comparison is running.");
+             });
+    file.toggle("resume", "Go on with the last session",
+                "A start without a file opens the planet, the camera, the trace, the comparison and the "
+                "ruler of the last session.",
+                {}, "window.resume",
+                [](const Context& c) -> bool& { return c.workspace.preferences.resume; });
+    saving.add("screenshot", "Screenshot", "Saves a picture of the planet with its settings.", {"F12"},
+               sends(TakeScreenshot{false}), needsPlanet);
+    saving.add("screenshot_with_panels", "Screenshot with panels", "Saves a picture of the window.",
+               {"Shift+F12"}, sends(TakeScreenshot{true}));
+    saving.add("copy_command_line", "Copy as command line",
+               "Copies a worldy shot command that draws this view with these settings.", {"Ctrl+Shift+C"},
+               sends(CopyCommandLine{}), needsPlanet);
+    saving.add("save_report", "Save session report...",
+               "Saves the settings, measurements and notes of this session as a page with pictures.", {},
+               sends(SaveReport{}), needsPlanet);
+    leaving.add("quit", "Quit", "Saves the settings and ends Worldy.", {"Ctrl+Q"}, sends(Quit{}));
 }
 
 // ---- Edit ----
@@ -145,71 +135,48 @@ std::vector<ActionChoice> presets(const Context& c) {
 }
 
 void addEdit(List& list) {
-    list.push_back(
-        {.id = "undo",
-         .name = "Undo",
-         .help = "Reverts the last change of a setting.",
-         .menu = Menu::Edit,
-         .keys = {"Ctrl+Z"},
-         .act = sends(Undo{}),
-         .whyNot =
-             [](const Context& c) { return unless(!c.view.settings.undoName.empty(), "Nothing to undo."); },
-         .nameNow = [](const Context& c) { return verbWith("Undo", c.view.settings.undoName); }});
-    list.push_back(
-        {.id = "redo",
-         .name = "Redo",
-         .help = "Makes the last reverted change again.",
-         .menu = Menu::Edit,
-         .keys = {"Ctrl+Shift+Z", "Ctrl+Y"},
-         .act = sends(Redo{}),
-         .whyNot =
-             [](const Context& c) { return unless(!c.view.settings.redoName.empty(), "Nothing to redo."); },
-         .nameNow = [](const Context& c) { return verbWith("Redo", c.view.settings.redoName); }});
-    list.push_back(
-        {.id = "palette",
-         .name = "Find anything...",
-         .help = "Opens or closes the palette, which finds commands, panels, settings, bookmarks, flights, "
-                 "presets, "
-                 "chunks and places.",
-         .menu = Menu::Edit,
-         .group = 1,
-         .keys = {"Ctrl+K"},
-         .inTextFields = true,
-         .act = [](const Context& c) { togglePalette(c.menu.palette); },
-         .whyNot = [](const Context&) { return unless(!isDialogOpen(), "A message waits for an answer."); }});
-    list.push_back(
-        {.id = "find",
-         .name = "Find in list",
-         .help =
-             "Moves the focus to the filter of the panel under the pointer, or of the one with the focus.",
-         .menu = Menu::Edit,
-         .group = 1,
-         .keys = {"Ctrl+F"},
-         .inTextFields = true,
-         .act = [](const Context& c) { c.menu.findsInList = true; },
-         .whyNot =
-             [](const Context&) {
-                 return unless(isFilterShown(), "No list with a filter is shown; the Log panel has one.");
-             }});
-    list.push_back({.id = "reset_settings",
-                    .name = "Reset all settings",
-                    .help = "Resets all view settings to their defaults. Undo reverts this.",
-                    .menu = Menu::Edit,
-                    .group = 2,
-                    .act = [](const Context& c) { c.settings = {}; },
-                    .whyNot =
-                        [](const Context& c) {
-                            return unless(c.settings != ViewSettings(), "All settings have their defaults.");
-                        }});
-    list.push_back(
-        {.id = "load_preset",
-         .name = "Load preset",
-         .help = "Replaces the view settings by those of a preset.",
-         .menu = Menu::Edit,
-         .group = 2,
-         .whyNot = [](const Context& c) { return unless(!c.view.settings.presets.empty(), "No presets."); },
-         .choices = presets,
-         .choiceKind = PaletteKind::Preset});
+    const MenuPlace undoing{list, Menu::Edit}, finding{list, Menu::Edit, 1}, resetting{list, Menu::Edit, 2};
+    Action& undo =
+        undoing.add("undo", "Undo", "Reverts the last change of a setting.", {"Ctrl+Z"}, sends(Undo{}));
+    undo.whyNot = [](const Context& c) {
+        return unless(!c.view.settings.undoName.empty(), "Nothing to undo.");
+    };
+    undo.nameNow = [](const Context& c) { return verbWith("Undo", c.view.settings.undoName); };
+    Action& redo = undoing.add("redo", "Redo", "Makes the last reverted change again.",
+                               {"Ctrl+Shift+Z", "Ctrl+Y"}, sends(Redo{}));
+    redo.whyNot = [](const Context& c) {
+        return unless(!c.view.settings.redoName.empty(), "Nothing to redo.");
+    };
+    redo.nameNow = [](const Context& c) { return verbWith("Redo", c.view.settings.redoName); };
+    Action& palette = finding.add(
+        "palette", "Find anything...",
+        "Opens or closes the palette, which finds commands, panels, settings, bookmarks, flights, "
+        "presets, chunks and places.",
+        {"Ctrl+K"}, [](const Context& c) { togglePalette(c.menu.palette); });
+    palette.inTextFields = true;
+    palette.whyNot = [](const Context&) { return unless(!isDialogOpen(), "A message waits for an answer."); };
+    Action& find = finding.add(
+        "find", "Find in list",
+        "Moves the focus to the filter of the panel under the pointer, or of the one with the focus.",
+        {"Ctrl+F"}, [](const Context& c) { c.menu.findsInList = true; });
+    find.inTextFields = true;
+    find.whyNot = [](const Context&) {
+        return unless(isFilterShown(), "No list with a filter is shown; the Log panel has one.");
+    };
+    resetting.add(
+        "reset_settings", "Reset all settings",
+        "Resets all view settings to their defaults. Undo reverts this.", {},
+        [](const Context& c) { c.settings = {}; },
+        [](const Context& c) {
+            return unless(c.settings != ViewSettings(), "All settings have their defaults.");
+        });
+    Action& loadPreset =
+        resetting.add("load_preset", "Load preset", "Replaces the view settings by those of a preset.");
+    loadPreset.whyNot = [](const Context& c) {
+        return unless(!c.view.settings.presets.empty(), "No presets.");
+    };
+    loadPreset.choices = presets;
+    loadPreset.choiceKind = PaletteKind::Preset;
 }
 
 // ---- View ----
@@ -241,20 +208,17 @@ const char* submenuOf(PanelId panel) {
 }
 
 void addPanels(List& list, std::string_view submenu) {
+    const MenuPlace view{list, Menu::View, 0, std::string(submenu)};
     for (const PanelInfo& info : panelInfos) {
         if (submenuOf(info.id) != submenu) continue;
-        list.push_back({.id = "panel_" + std::string(info.key),
-                        .name = info.title,
-                        .help = "Brings the panel to the front, or hides it if it is there.",
-                        .menu = Menu::View,
-                        .submenu = std::string(submenu),
-                        .keys = {info.shortcut},
-                        .panel = info.id,
-                        .act = [id = info.id](const Context& c) { togglePanel(id, c.workspace); },
-                        .isOn =
-                            [id = info.id](const Context& c) {
-                                return isShown(c.workspace, id) && !isViewportMaximised(c.workspace);
-                            }});
+        Action& shows =
+            view.add("panel_" + std::string(info.key), info.title,
+                     "Brings the panel to the front, or hides it if it is there.", {info.shortcut},
+                     [id = info.id](const Context& c) { togglePanel(id, c.workspace); });
+        shows.panel = info.id;
+        shows.isOn = [id = info.id](const Context& c) {
+            return isShown(c.workspace, id) && !isViewportMaximised(c.workspace);
+        };
     }
 }
 
@@ -316,28 +280,24 @@ std::string cannotMaximise(const Context& c) {
 }
 
 void addFocusedPanel(List& list) {
+    const MenuPlace docks{list, Menu::View, 1, "Focus and docks"};
     const auto add = [&](const char* id, const char* name, const char* help, std::vector<const char*> keys,
-                         std::function<void(const Context&)> act) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = help,
-                        .menu = Menu::View,
-                        .group = 1,
-                        .submenu = "Focus and docks",
-                        .keys = std::move(keys),
-                        .act = std::move(act),
-                        .whyNot = needsUsedPanel});
+                         std::function<void(const Context&)> act,
+                         std::function<std::string(const Context&)> whyNot = needsUsedPanel) {
+        docks.add(id, name, help, std::move(keys), std::move(act), std::move(whyNot));
     };
     add("next_tab", "Next tab", "Brings the next panel of the dock to the front.", {"Ctrl+PageDown"},
         [](const Context& c) { stepTab(1, c); });
     add("previous_tab", "Previous tab", "Brings the previous panel of the dock to the front.",
         {"Ctrl+PageUp"}, [](const Context& c) { stepTab(-1, c); });
-    add("move_tab_forward", "Move tab forward", "Moves the panel's tab past the next one of its dock.",
-        {"Ctrl+Shift+PageDown"}, [](const Context& c) { moveTab(1, c); });
-    list.back().whyNot = [](const Context& c) { return cannotMoveTab(1, c); };
-    add("move_tab_back", "Move tab back", "Moves the panel's tab before the previous one of its dock.",
-        {"Ctrl+Shift+PageUp"}, [](const Context& c) { moveTab(-1, c); });
-    list.back().whyNot = [](const Context& c) { return cannotMoveTab(-1, c); };
+    add(
+        "move_tab_forward", "Move tab forward", "Moves the panel's tab past the next one of its dock.",
+        {"Ctrl+Shift+PageDown"}, [](const Context& c) { moveTab(1, c); },
+        [](const Context& c) { return cannotMoveTab(1, c); });
+    add(
+        "move_tab_back", "Move tab back", "Moves the panel's tab before the previous one of its dock.",
+        {"Ctrl+Shift+PageUp"}, [](const Context& c) { moveTab(-1, c); },
+        [](const Context& c) { return cannotMoveTab(-1, c); });
     add("move_panel_left", "Move panel to the left dock", "Moves the panel that had the focus last.", {},
         [](const Context& c) { movePanel(Dock::Left, c); });
     add("move_panel_right", "Move panel to the right dock", "Moves the panel that had the focus last.", {},
@@ -353,26 +313,21 @@ void addFocusedPanel(List& list) {
             floatPanel(*c.menu.usedPanel, c.workspace.panels[panel].floating, c.workspace);
         });
     add("maximise_dock", "Maximise dock",
-        "Maximises or restores the dock of the panel that had the focus last.", {}, maximiseUsedPanel);
-    list.back().whyNot = cannotMaximise;
+        "Maximises or restores the dock of the panel that had the focus last.", {}, maximiseUsedPanel,
+        cannotMaximise);
     add("hide_panel", "Hide panel", "Hides the panel that had the focus last.", {}, [](const Context& c) {
         c.workspace.panels[static_cast<std::size_t>(*c.menu.usedPanel)].shown = false;
     });
 }
 
 void addDockSizes(List& list) {
+    const MenuPlace docks{list, Menu::View, 1, "Focus and docks"};
     constexpr double stepUnits = 20;
     const auto add = [&](const char* id, const char* name, double Workspace::*size, double step,
                          double least) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = "Moves the edge of the dock, as its splitter does.",
-                        .menu = Menu::View,
-                        .group = 1,
-                        .submenu = "Focus and docks",
-                        .act = [=](const Context& c) {
-                            c.workspace.*size = std::clamp(c.workspace.*size + step, least, 1000.0);
-                        }});
+        docks.add(id, name, "Moves the edge of the dock, as its splitter does.", {}, [=](const Context& c) {
+            c.workspace.*size = std::clamp(c.workspace.*size + step, least, 1000.0);
+        });
     };
     add("widen_left", "Widen left dock", &Workspace::leftWidth, stepUnits, 160);
     add("narrow_left", "Narrow left dock", &Workspace::leftWidth, -stepUnits, 160);
@@ -383,208 +338,123 @@ void addDockSizes(List& list) {
 }
 
 void addFocus(List& list) {
-    const auto add = [&](const char* id, const char* name, const char* help, std::vector<const char*> keys,
-                         std::function<void(const Context&)> act) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = help,
-                        .menu = Menu::View,
-                        .group = 1,
-                        .submenu = "Focus and docks",
-                        .keys = std::move(keys),
-                        .act = std::move(act)});
-    };
-    add("next_pane", "Next pane", "Moves the focus to the next of menu bar, docks and viewport.",
-        {"Ctrl+Tab"}, [](const Context& c) { c.menu.panes = 1; });
-    add("previous_pane", "Previous pane", "Moves the focus to the previous of menu bar, docks and viewport.",
-        {"Ctrl+Shift+Tab"}, [](const Context& c) { c.menu.panes = -1; });
-    add("context_menu", "Context menu",
-        "Opens the menu of the control or row with the focus, as a right click does.", {"Shift+F10", "Menu"},
-        [](const Context& c) { c.menu.press = MenuState::Press::ContextMenu; });
+    const MenuPlace docks{list, Menu::View, 1, "Focus and docks"};
+    docks.add("next_pane", "Next pane", "Moves the focus to the next of menu bar, docks and viewport.",
+              {"Ctrl+Tab"}, [](const Context& c) { c.menu.panes = 1; });
+    docks.add("previous_pane", "Previous pane",
+              "Moves the focus to the previous of menu bar, docks and viewport.", {"Ctrl+Shift+Tab"},
+              [](const Context& c) { c.menu.panes = -1; });
+    docks.add("context_menu", "Context menu",
+              "Opens the menu of the control or row with the focus, as a right click does.",
+              {"Shift+F10", "Menu"}, [](const Context& c) { c.menu.press = MenuState::Press::ContextMenu; });
 }
 
 void addPicture(List& list) {
-    list.push_back(
-        {.id = "wireframe",
-         .name = "Wireframe",
-         .help = "Draws the mesh edges.",
-         .menu = Menu::View,
-         .group = 1,
-         .submenu = "Picture",
-         .keys = {"F1"},
-         .setting = "overlay.wireframe",
-         .act = [](const Context& c) { c.settings.overlay.wireframe = !c.settings.overlay.wireframe; },
-         .isOn = [](const Context& c) { return c.settings.overlay.wireframe; }});
-    list.push_back({.id = "cube",
-                    .name = "Unprojected cube",
-                    .help = "Draws the cube before it is projected onto the sphere.",
-                    .menu = Menu::View,
-                    .group = 1,
-                    .submenu = "Picture",
-                    .keys = {"F4"},
-                    .setting = "overlay.cube",
-                    .act = [](const Context& c) { c.settings.overlay.cube = !c.settings.overlay.cube; },
-                    .isOn = [](const Context& c) { return c.settings.overlay.cube; }});
-    list.push_back({.id = "next_tint",
-                    .name = "Next chunk tint",
-                    .help = "Tints the chunks by the next quantity of the Overlay panel.",
-                    .menu = Menu::View,
-                    .group = 1,
-                    .submenu = "Picture",
-                    .keys = {"F8"},
-                    .setting = "overlay.colour_by",
-                    .act = [](const Context& c) { advance(c.settings.overlay.colourBy, 8); }});
-    list.push_back(
-        {.id = "flip_compared",
-         .name = "Flip A and B",
-         .help = "While comparing: shows the other of A and B.",
-         .menu = Menu::View,
-         .group = 1,
-         .submenu = "Picture",
-         .keys = {"F9"},
-         .setting = "compare.show_b",
-         .act =
-             [](const Context& c) {
-                 CompareSettings& compare = c.settings.compare;
-                 compare.showB = compare.mode != CompareMode::Flip || !compare.showB;
-                 compare.mode = CompareMode::Flip;
-             },
-         .whyNot = [](const Context& c) { return unless(c.view.compare.on, "Nothing is compared."); }});
+    const MenuPlace picture{list, Menu::View, 1, "Picture"};
+    picture.toggle("wireframe", "Wireframe", "Draws the mesh edges.", {"F1"}, "overlay.wireframe",
+                   [](const Context& c) -> bool& { return c.settings.overlay.wireframe; });
+    picture.toggle("cube", "Unprojected cube", "Draws the cube before it is projected onto the sphere.",
+                   {"F4"}, "overlay.cube", [](const Context& c) -> bool& { return c.settings.overlay.cube; });
+    picture
+        .add("next_tint", "Next chunk tint", "Tints the chunks by the next quantity of the Overlay panel.",
+             {"F8"}, [](const Context& c) { advance(c.settings.overlay.colourBy, 8); })
+        .setting = "overlay.colour_by";
+    Action& flipCompared =
+        picture.add("flip_compared", "Flip A and B", "While comparing: shows the other of A and B.", {"F9"},
+                    [](const Context& c) {
+                        CompareSettings& compare = c.settings.compare;
+                        compare.showB = compare.mode != CompareMode::Flip || !compare.showB;
+                        compare.mode = CompareMode::Flip;
+                    });
+    flipCompared.setting = "compare.show_b";
+    flipCompared.whyNot = [](const Context& c) { return unless(c.view.compare.on, "Nothing is compared."); };
 }
 
 void addWipe(List& list) {
-    const auto add = [&](const char* id, const char* name, const char* help, const auto& moved) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = help,
-                        .menu = Menu::View,
-                        .group = 1,
-                        .submenu = "Picture",
-                        .act =
-                            [=](const Context& c) {
-                                double& wipe = c.settings.compare.wipe;
-                                wipe = std::clamp(moved(wipe), 0.0, 1.0);
-                            },
-                        .whyNot =
-                            [](const Context& c) {
-                                if (!c.view.compare.on) return std::string("Nothing is compared.");
-                                return unless(c.settings.compare.mode == CompareMode::Wipe,
-                                              "The comparison shows no wipe; the Compare panel does.");
-                            }});
+    const MenuPlace picture{list, Menu::View, 1, "Picture"};
+    const auto add = [&](const char* id, const char* name, const char* help, const char* key,
+                         const auto& moved) {
+        picture.add(
+            id, name, help, {key},
+            [=](const Context& c) {
+                double& wipe = c.settings.compare.wipe;
+                wipe = std::clamp(moved(wipe), 0.0, 1.0);
+            },
+            [](const Context& c) {
+                if (!c.view.compare.on) return std::string("Nothing is compared.");
+                return unless(c.settings.compare.mode == CompareMode::Wipe,
+                              "The comparison shows no wipe; the Compare panel does.");
+            });
     };
     constexpr double step = 0.05;
-    add("wipe_left", "Move wipe left", "While comparing by a wipe: moves the divider left by 5 %.",
+    add("wipe_left", "Move wipe left", "While comparing by a wipe: moves the divider left by 5 %.", "Ctrl+[",
         [](double wipe) { return wipe - step; });
-    list.back().keys = {"Ctrl+["};
     add("wipe_right", "Move wipe right", "While comparing by a wipe: moves the divider right by 5 %.",
-        [](double wipe) { return wipe + step; });
-    list.back().keys = {"Ctrl+]"};
+        "Ctrl+]", [](double wipe) { return wipe + step; });
     add("wipe_middle", "Wipe to the middle", "While comparing by a wipe: moves the divider to the middle.",
-        [](double) { return 0.5; });
-    list.back().keys = {"Ctrl+\\"};
+        "Ctrl+\\", [](double) { return 0.5; });
 }
 
 void addTheme(List& list) {
+    const MenuPlace themes{list, Menu::View, 2, "Theme"};
     const auto add = [&](const char* id, const char* name, Theme theme) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = "Changes the colours of the window.",
-                        .menu = Menu::View,
-                        .group = 2,
-                        .submenu = "Theme",
-                        .act = [=](const Context& c) { c.workspace.preferences.theme = theme; },
-                        .isOn = [=](const Context& c) { return c.workspace.preferences.theme == theme; }});
+        themes
+            .add(id, name, "Changes the colours of the window.", {},
+                 [=](const Context& c) { c.workspace.preferences.theme = theme; })
+            .isOn = [=](const Context& c) { return c.workspace.preferences.theme == theme; };
     };
     add("dark_theme", "Dark theme", Theme::Dark);
     add("light_theme", "Light theme", Theme::Light);
 }
 
 void addFrameLimits(List& list) {
+    const MenuPlace limitMenu{list, Menu::View, 4, "Frame limit"};
     constexpr std::array limits = {0, 30, 60, 120, 144, 240};
     for (const int limit : limits) {
         const std::string number = std::to_string(limit);
-        list.push_back(
-            {.id = "frame_limit_" + number,
-             .name = limit == 0 ? "No frame limit" : "At most " + number + " frames a second",
-             .help = "Limits how many frames are drawn in a second.",
-             .menu = Menu::View,
-             .group = 4,
-             .submenu = "Frame limit",
-             .act = [=](const Context& c) { c.workspace.preferences.frameLimit = limit; },
-             .isOn = [=](const Context& c) { return c.workspace.preferences.frameLimit == limit; }});
+        limitMenu
+            .add("frame_limit_" + number,
+                 limit == 0 ? "No frame limit" : "At most " + number + " frames a second",
+                 "Limits how many frames are drawn in a second.", {},
+                 [=](const Context& c) { c.workspace.preferences.frameLimit = limit; })
+            .isOn = [=](const Context& c) { return c.workspace.preferences.frameLimit == limit; };
     }
 }
 
 void addFramePace(List& list) {
-    list.push_back(
-        {.id = "idle",
-         .name = "Idle when still",
-         .help = "Draws frames only while something changes, which saves power.",
-         .menu = Menu::View,
-         .group = 4,
-         .setting = "window.idle",
-         .act = [](const Context& c) { c.workspace.preferences.idle = !c.workspace.preferences.idle; },
-         .isOn = [](const Context& c) { return c.workspace.preferences.idle; }});
-    list.push_back(
-        {.id = "vsync",
-         .name = "Wait for the monitor",
-         .help = "Draws at most as many frames as the monitor shows.",
-         .menu = Menu::View,
-         .group = 4,
-         .setting = "window.vsync",
-         .act = [](const Context& c) { c.workspace.preferences.vsync = !c.workspace.preferences.vsync; },
-         .isOn = [](const Context& c) { return c.workspace.preferences.vsync; }});
+    const MenuPlace pace{list, Menu::View, 4};
+    pace.toggle("idle", "Idle when still", "Draws frames only while something changes, which saves power.",
+                {}, "window.idle", [](const Context& c) -> bool& { return c.workspace.preferences.idle; });
+    pace.toggle("vsync", "Wait for the monitor", "Draws at most as many frames as the monitor shows.", {},
+                "window.vsync", [](const Context& c) -> bool& { return c.workspace.preferences.vsync; });
     addFrameLimits(list);
-    list.push_back(
-        {.id = "full_speed",
-         .name = "Full speed",
-         .help = "Draws as many frames as the machine can until it is chosen again: no idling, no frame "
-                 "limit, no wait for the monitor.",
-         .menu = Menu::View,
-         .group = 4,
-         .keys = {"Shift+F5"},
-         .act = [](const Context& c) { c.commands.push_back(DrawAtFullSpeed{!c.view.frames.fullSpeed}); },
-         .isOn = [](const Context& c) { return c.view.frames.fullSpeed; }});
+    pace.add("full_speed", "Full speed",
+             "Draws as many frames as the machine can until it is chosen again: no idling, no frame "
+             "limit, no wait for the monitor.",
+             {"Shift+F5"},
+             [](const Context& c) { c.commands.push_back(DrawAtFullSpeed{!c.view.frames.fullSpeed}); })
+        .isOn = [](const Context& c) { return c.view.frames.fullSpeed; };
 }
 
 void addTextAndLayout(List& list) {
-    list.push_back({.id = "larger_text",
-                    .name = "Larger text",
-                    .help = "Enlarges text and controls by a tenth.",
-                    .menu = Menu::View,
-                    .group = 2,
-                    .keys = {"Ctrl++"},
-                    .act = [](const Context& c) { zoomText(1.1, c.workspace); },
-                    .whyNot =
-                        [](const Context& c) {
-                            return unless(!isTextLimited(c.workspace),
-                                          "The window is too small for larger text.");
-                        }});
-    list.push_back({.id = "smaller_text",
-                    .name = "Smaller text",
-                    .help = "Makes text and controls smaller.",
-                    .menu = Menu::View,
-                    .group = 2,
-                    .keys = {"Ctrl+-"},
-                    .act = [](const Context& c) { zoomText(1 / 1.1, c.workspace); }});
-    list.push_back({.id = "match_monitor_scale",
-                    .name = "Match monitor scale",
-                    .help = "Gives text and controls the size that the monitor asks for.",
-                    .menu = Menu::View,
-                    .group = 2,
-                    .act = [](const Context& c) { c.workspace.preferences.scale = 1; },
-                    .whyNot =
-                        [](const Context& c) {
-                            return unless(c.workspace.preferences.scale != 1,
-                                          "The text already matches the monitor scale.");
-                        }});
-    list.push_back({.id = "all_panels",
-                    .name = "All panels",
-                    .help = "Puts all panels away, or brings back those that were shown.",
-                    .menu = Menu::View,
-                    .group = 3,
-                    .keys = {"F11"},
-                    .act = [](const Context& c) { toggleAllPanels(c.workspace); }});
+    const MenuPlace text{list, Menu::View, 2}, panelsOf{list, Menu::View, 3};
+    text.add(
+        "larger_text", "Larger text", "Enlarges text and controls by a tenth.", {"Ctrl++"},
+        [](const Context& c) { zoomText(1.1, c.workspace); },
+        [](const Context& c) {
+            return unless(!isTextLimited(c.workspace), "The window is too small for larger text.");
+        });
+    text.add("smaller_text", "Smaller text", "Makes text and controls smaller.", {"Ctrl+-"},
+             [](const Context& c) { zoomText(1 / 1.1, c.workspace); });
+    text.add(
+        "match_monitor_scale", "Match monitor scale",
+        "Gives text and controls the size that the monitor asks for.", {},
+        [](const Context& c) { c.workspace.preferences.scale = 1; },
+        [](const Context& c) {
+            return unless(c.workspace.preferences.scale != 1, "The text already matches the monitor scale.");
+        });
+    panelsOf.add("all_panels", "All panels", "Puts all panels away, or brings back those that were shown.",
+                 {"F11"}, [](const Context& c) { toggleAllPanels(c.workspace); });
 }
 
 // ---- Camera ----
@@ -607,13 +477,10 @@ std::vector<ActionChoice> flights(const Context& c) {
 }
 
 void addCameraModes(List& list) {
+    const MenuPlace modes{list, Menu::Camera};
     const auto add = [&](const char* id, const char* name, const char* help, CameraMode mode) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = help,
-                        .menu = Menu::Camera,
-                        .act = [=](const Context& c) { c.settings.camera.mode = mode; },
-                        .isOn = [=](const Context& c) { return c.settings.camera.mode == mode; }});
+        modes.add(id, name, help, {}, [=](const Context& c) { c.settings.camera.mode = mode; }).isOn =
+            [=](const Context& c) { return c.settings.camera.mode == mode; };
     };
     add("fly", "Fly", "The keys move the camera freely.", CameraMode::Fly);
     add("orbit", "Orbit", "The camera turns around the planet.", CameraMode::Orbit);
@@ -621,37 +488,22 @@ void addCameraModes(List& list) {
 }
 
 void addPlaces(List& list) {
-    list.push_back({.id = "go_to",
-                    .name = "Go to",
-                    .help = "Moves the camera to a bookmark.",
-                    .menu = Menu::Camera,
-                    .group = 1,
-                    .choices = bookmarks,
-                    .choiceKind = PaletteKind::Bookmark});
-    list.push_back(
-        {.id = "start_flight",
-         .name = "Start flight",
-         .help = "Follows a flight from its start.",
-         .menu = Menu::Camera,
-         .group = 1,
-         .whyNot =
-             [](const Context& c) { return unless(!c.view.camera.flights.empty(), "No flights found."); },
-         .choices = flights,
-         .choiceKind = PaletteKind::Flight});
-    list.push_back({.id = "reset_camera",
-                    .name = "Reset camera",
-                    .help = "Moves the camera to where this session started.",
-                    .menu = Menu::Camera,
-                    .group = 1,
-                    .keys = {"F3"},
-                    .act = sends(ResetCamera{})});
-    list.push_back({.id = "select_middle",
-                    .name = "Select chunk in the middle",
-                    .help = "Selects the chunk in the middle of the viewport, as a click there does.",
-                    .menu = Menu::Camera,
-                    .group = 1,
-                    .act = [](const Context& c) { c.menu.press = MenuState::Press::MiddleOfViewport; },
-                    .whyNot = needsPlanet});
+    const MenuPlace places{list, Menu::Camera, 1};
+    Action& goTo = places.add("go_to", "Go to", "Moves the camera to a bookmark.");
+    goTo.choices = bookmarks;
+    goTo.choiceKind = PaletteKind::Bookmark;
+    Action& startFlight = places.add("start_flight", "Start flight", "Follows a flight from its start.");
+    startFlight.whyNot = [](const Context& c) {
+        return unless(!c.view.camera.flights.empty(), "No flights found.");
+    };
+    startFlight.choices = flights;
+    startFlight.choiceKind = PaletteKind::Flight;
+    places.add("reset_camera", "Reset camera", "Moves the camera to where this session started.", {"F3"},
+               sends(ResetCamera{}));
+    places.add(
+        "select_middle", "Select chunk in the middle",
+        "Selects the chunk in the middle of the viewport, as a click there does.", {},
+        [](const Context& c) { c.menu.press = MenuState::Press::MiddleOfViewport; }, needsPlanet);
 }
 
 std::string needsPoint(const Context& c) {
@@ -663,152 +515,95 @@ std::string needsPoint(const Context& c) {
 
 // The point is the one that pickedPoint() returns.
 void addPoints(List& list) {
-    list.push_back({.id = "look_at_point",
-                    .name = "Look at the point",
-                    .help = "Turns the camera to the ground under the pointer, else to the selected chunk.",
-                    .menu = Menu::Camera,
-                    .group = 1,
-                    .keys = {"F"},
-                    .act = [](const Context& c) { c.commands.push_back(LookAtPoint{*pickedPoint(c.view)}); },
-                    .whyNot = needsPoint});
-    list.push_back(
-        {.id = "orbit_point",
-         .name = "Orbit the point",
-         .help = "Orbits the ground under the pointer, else the selected chunk, else the middle of the "
-                 "picture; chosen again, flies.",
-         .menu = Menu::Camera,
-         .group = 1,
-         .keys = {"O"},
-         .act =
-             [](const Context& c) {
-                 if (c.settings.camera.mode == CameraMode::Orbit)
-                     c.settings.camera.mode = CameraMode::Fly;
-                 else
-                     c.commands.push_back(OrbitPoint{*pickedPoint(c.view)});
-             },
-         .isOn = [](const Context& c) { return c.settings.camera.mode == CameraMode::Orbit; },
-         .whyNot =
-             [](const Context& c) {
-                 return c.settings.camera.mode == CameraMode::Orbit ? "" : needsPoint(c);
-             }});
-    list.push_back(
-        {.id = "glide",
-         .name = "Glide to places",
-         .help = "The camera glides to bookmarks, places and notes instead of jumping.",
-         .menu = Menu::Camera,
-         .group = 1,
-         .setting = "window.glide",
-         .act = [](const Context& c) { c.workspace.preferences.glide = !c.workspace.preferences.glide; },
-         .isOn = [](const Context& c) { return c.workspace.preferences.glide; }});
+    const MenuPlace places{list, Menu::Camera, 1};
+    places.add(
+        "look_at_point", "Look at the point",
+        "Turns the camera to the ground under the pointer, else to the selected chunk.", {"F"},
+        [](const Context& c) { c.commands.push_back(LookAtPoint{*pickedPoint(c.view)}); }, needsPoint);
+    Action& orbitPoint =
+        places.add("orbit_point", "Orbit the point",
+                   "Orbits the ground under the pointer, else the selected chunk, else the middle of the "
+                   "picture; chosen again, flies.",
+                   {"O"}, [](const Context& c) {
+                       if (c.settings.camera.mode == CameraMode::Orbit)
+                           c.settings.camera.mode = CameraMode::Fly;
+                       else
+                           c.commands.push_back(OrbitPoint{*pickedPoint(c.view)});
+                   });
+    orbitPoint.isOn = [](const Context& c) { return c.settings.camera.mode == CameraMode::Orbit; };
+    orbitPoint.whyNot = [](const Context& c) {
+        return c.settings.camera.mode == CameraMode::Orbit ? "" : needsPoint(c);
+    };
+    places.toggle("glide", "Glide to places",
+                  "The camera glides to bookmarks, places and notes instead of jumping.", {}, "window.glide",
+                  [](const Context& c) -> bool& { return c.workspace.preferences.glide; });
 }
 
 void addLens(List& list) {
+    const MenuPlace lens{list, Menu::Camera, 4};
     const auto addFov = [&](const char* id, const char* name, const char* help, const char* key,
                             double notches) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = help,
-                        .menu = Menu::Camera,
-                        .group = 4,
-                        .keys = {key},
-                        .act = [=](const Context& c) {
-                            c.settings.camera.fovDeg = narrowedFovDeg(c.settings.camera.fovDeg, notches);
-                        }});
+        lens.add(id, name, help, {key}, [=](const Context& c) {
+            c.settings.camera.fovDeg = narrowedFovDeg(c.settings.camera.fovDeg, notches);
+        });
     };
     addFov("narrower_view", "Narrow field of view", "Magnifies the picture by a tenth, as Ctrl+wheel does.",
            "]", 1);
     addFov("wider_view", "Widen field of view", "Widens the picture by a tenth, as Ctrl+wheel does.", "[",
            -1);
     const auto addSpeed = [&](const char* id, const char* name, double factor) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = "Changes the speed of the camera by half, as + and - do.",
-                        .menu = Menu::Camera,
-                        .group = 4,
-                        .act =
-                            [=](const Context& c) {
-                                c.commands.push_back(SetSpeedFactor{c.view.camera.speedFactor * factor});
-                            },
-                        .whyNot = needsPlanet});
+        lens.add(
+            id, name, "Changes the speed of the camera by half, as + and - do.", {},
+            [=](const Context& c) {
+                c.commands.push_back(SetSpeedFactor{c.view.camera.speedFactor * factor});
+            },
+            needsPlanet);
     };
     addSpeed("faster", "Fly faster", 1.5);
     addSpeed("slower", "Fly slower", 1 / 1.5);
 }
 
 void addFrames(List& list) {
-    list.push_back(
-        {.id = "freeze_lod",
-         .name = "Freeze LOD",
-         .help = "Keeps the selection while the camera moves.",
-         .menu = Menu::Camera,
-         .group = 2,
-         .keys = {"F2"},
-         .act = [](const Context& c) { c.commands.push_back(FreezeLod{!c.view.camera.lodFrozen}); },
-         .isOn = [](const Context& c) { return c.view.camera.lodFrozen; }});
-    list.push_back({.id = "pause_frames",
-                    .name = "Pause frames",
-                    .help = "Stops motion, selection and loading.",
-                    .menu = Menu::Camera,
-                    .group = 2,
-                    .keys = {"F5"},
-                    .act = [](const Context& c) { c.commands.push_back(PauseFrames{!c.view.frames.paused}); },
-                    .isOn = [](const Context& c) { return c.view.frames.paused; }});
-    list.push_back({.id = "step_frame",
-                    .name = "Step one frame",
-                    .help = "Makes one frame while frames are paused.",
-                    .menu = Menu::Camera,
-                    .group = 2,
-                    .keys = {"F6"},
-                    .act = sends(StepFrame{})});
+    const MenuPlace frames{list, Menu::Camera, 2};
+    frames
+        .add("freeze_lod", "Freeze LOD", "Keeps the selection while the camera moves.", {"F2"},
+             [](const Context& c) { c.commands.push_back(FreezeLod{!c.view.camera.lodFrozen}); })
+        .isOn = [](const Context& c) { return c.view.camera.lodFrozen; };
+    frames
+        .add("pause_frames", "Pause frames", "Stops motion, selection and loading.", {"F5"},
+             [](const Context& c) { c.commands.push_back(PauseFrames{!c.view.frames.paused}); })
+        .isOn = [](const Context& c) { return c.view.frames.paused; };
+    frames.add("step_frame", "Step one frame", "Makes one frame while frames are paused.", {"F6"},
+               sends(StepFrame{}));
 }
 
 void addObserver(List& list) {
+    const MenuPlace observer{list, Menu::Camera, 3};
     const auto add = [&](const char* id, const char* name, ObserverMode mode) {
-        list.push_back({.id = id,
-                        .name = name,
-                        .help = "Chooses whether the second camera, which watches the first, is shown.",
-                        .menu = Menu::Camera,
-                        .group = 3,
-                        .act = [=](const Context& c) { c.settings.camera.observer = mode; },
-                        .isOn = [=](const Context& c) { return c.settings.camera.observer == mode; }});
+        observer
+            .add(id, name, "Chooses whether the second camera, which watches the first, is shown.", {},
+                 [=](const Context& c) { c.settings.camera.observer = mode; })
+            .isOn = [=](const Context& c) { return c.settings.camera.observer == mode; };
     };
     add("observer_off", "Observer off", ObserverMode::Off);
     add("observer_split", "Observer split", ObserverMode::Split);
     add("observer_alone", "Observer alone", ObserverMode::Alone);
-    list.push_back({.id = "next_observer",
-                    .name = "Next observer mode",
-                    .help = "Goes from off to split to alone.",
-                    .menu = Menu::Camera,
-                    .group = 3,
-                    .keys = {"F7"},
-                    .act = [](const Context& c) { advance(c.settings.camera.observer, 3); }});
+    observer.add("next_observer", "Next observer mode", "Goes from off to split to alone.", {"F7"},
+                 [](const Context& c) { advance(c.settings.camera.observer, 3); });
 }
 
 // ---- Help ----
 
 void addHelp(List& list) {
-    list.push_back({.id = "keys",
-                    .name = "Keys and mouse",
-                    .help = "Shows or hides the list of keys.",
-                    .menu = Menu::Help,
-                    .keys = {"F10"},
-                    .act = [](const Context& c) { c.menu.showKeys = !c.menu.showKeys; }});
-    list.push_back({.id = "write_key_file",
-                    .name = "Write key file",
-                    .help = "Writes keys.toml, in which the keys can be changed. An existing file is kept.",
-                    .menu = Menu::Help,
-                    .act = sends(WriteKeyFile{})});
-    list.push_back({.id = "reload_keys",
-                    .name = "Reload keys",
-                    .help = "Reads keys.toml again.",
-                    .menu = Menu::Help,
-                    .act = sends(ReloadKeys{})});
-    list.push_back({.id = "about",
-                    .name = "About",
-                    .help = "Says what Worldy is.",
-                    .menu = Menu::Help,
-                    .group = 1,
-                    .act = [](const Context& c) { c.menu.showAbout = true; }});
+    const MenuPlace help{list, Menu::Help}, about{list, Menu::Help, 1};
+    help.add("keys", "Keys and mouse", "Shows or hides the list of keys.", {"F10"},
+             [](const Context& c) { c.menu.showKeys = !c.menu.showKeys; });
+    help.add("write_key_file", "Write key file",
+             "Writes keys.toml, in which the keys can be changed. An existing file is kept.", {},
+             sends(WriteKeyFile{}));
+    help.add("reload_keys", "Reload keys", "Reads keys.toml again.", {}, sends(ReloadKeys{}));
+    about.add("about", "About", "Says what Worldy is.", {},
+              [](const Context& c) { c.menu.showAbout = true; });
 }
 
 // ---- No menu ----
@@ -830,7 +625,7 @@ void leave(const Context& c) {
 
 template <class Kind>
 void addTool(List& list, const char* id, const char* name, const char* help, const Kind& command) {
-    list.push_back({.id = id, .name = name, .help = help, .act = sends(command), .whyNot = needsPlanet});
+    MenuPlace{list}.add(id, name, help, {}, sends(command), needsPlanet);
 }
 
 std::vector<ActionChoice> layouts(const Context& c) {
@@ -844,49 +639,37 @@ std::vector<ActionChoice> layouts(const Context& c) {
 
 // The menu View > Layout has these too.
 void addLayouts(List& list) {
-    list.push_back({.id = "next_layout",
-                    .name = "Next layout",
-                    .help = "Shows the next layout of the panels.",
-                    .keys = {"Ctrl+Shift+L"},
-                    .act = sends(NextLayout{})});
-    list.push_back({.id = "reset_layout",
-                    .name = "Reset layout",
-                    .help = "Puts all panels and docks where they were at first.",
-                    .act = sends(ResetLayout{})});
-    list.push_back({.id = "restore_layout",
-                    .name = "Back to unsaved layout",
-                    .help = "Brings back the panels before the last change of layout.",
-                    .act = sends(RestoreLayout{}),
-                    .whyNot = [](const Context& c) {
-                        return unless(c.view.settings.hasUnsavedLayout,
-                                      "No layout has replaced panels that were not saved as a layout.");
-                    }});
-    list.push_back({.id = "save_layout",
-                    .name = "Save layout as...",
-                    .help = "Saves which panels are shown, where they lie, and the sizes of the docks.",
-                    .act = [](const Context& c) { c.menu.layout = {.asksName = true}; }});
-    list.push_back({.id = "load_layout",
-                    .name = "Layout",
-                    .help = "Shows the panels of a layout.",
-                    .choices = layouts,
-                    .choiceKind = PaletteKind::Command});
+    const MenuPlace none{list};
+    none.add("next_layout", "Next layout", "Shows the next layout of the panels.", {"Ctrl+Shift+L"},
+             sends(NextLayout{}));
+    none.add("reset_layout", "Reset layout", "Puts all panels and docks where they were at first.", {},
+             sends(ResetLayout{}));
+    none.add("restore_layout", "Back to unsaved layout",
+             "Brings back the panels before the last change of layout.", {}, sends(RestoreLayout{}),
+             [](const Context& c) {
+                 return unless(c.view.settings.hasUnsavedLayout,
+                               "No layout has replaced panels that were not saved as a layout.");
+             });
+    none.add("save_layout", "Save layout as...",
+             "Saves which panels are shown, where they lie, and the sizes of the docks.", {},
+             [](const Context& c) { c.menu.layout = {.asksName = true}; });
+    Action& loadLayout = none.add("load_layout", "Layout", "Shows the panels of a layout.");
+    loadLayout.choices = layouts;
+    loadLayout.choiceKind = PaletteKind::Command;
 }
 
 void addWithoutMenu(List& list) {
-    list.push_back({.id = "close",
-                    .name = "Close",
-                    .help = "Closes a menu, message or window; if none is open, restores a maximised dock; "
-                            "otherwise clears the "
-                            "selection.",
-                    .keys = {"Esc"},
-                    .act = leave});
+    const MenuPlace none{list};
+    none.add("close", "Close",
+             "Closes a menu, message or window; if none is open, restores a maximised dock; "
+             "otherwise clears the selection.",
+             {"Esc"}, leave);
     addLayouts(list);
-    list.push_back({.id = "pause_paging",
-                    .name = "Pause paging",
-                    .help = "Stops loaders from taking requests from the queue.",
-                    .act = [](const Context& c) { c.commands.push_back(PausePaging{!c.view.pagingPaused}); },
-                    .isOn = [](const Context& c) { return c.view.pagingPaused; },
-                    .whyNot = needsPlanet});
+    Action& pausePaging =
+        none.add("pause_paging", "Pause paging", "Stops loaders from taking requests from the queue.", {},
+                 [](const Context& c) { c.commands.push_back(PausePaging{!c.view.pagingPaused}); });
+    pausePaging.isOn = [](const Context& c) { return c.view.pagingPaused; };
+    pausePaging.whyNot = needsPlanet;
     addTool(list, "evict_all", "Evict all chunks", "Evicts all chunks and colour tiles except the six roots.",
             DropAll{});
     addTool(list, "retry_failed", "Retry failed blocks", "Retries all blocks that could not be read.",
