@@ -41,10 +41,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using planet::Result;
 
-// Disks read like this one if neither the options nor the settings say how.
-constexpr double usualDiskMs = 5;
-constexpr double usualDiskMBs = 100;
-
 // Returns the settings of the earlier atlas, changed by the command line. Regions are those of now, because they belong
 // to the planet.
 Result<ViewSettings> settingsForDiff(const AtlasOptions& options, const planet::Atlas& old) {
@@ -63,11 +59,7 @@ Result<ViewSettings> settingsForDiff(const AtlasOptions& options, const planet::
 
 void setDisk(const AtlasOptions& options, bool isDiff, ViewSettings& view) {
     planet::BadDiskSettings& disk = view.paging.badDisk;
-    const bool isUnset = !isDiff && disk.latencyMs == 0 && disk.bandwidthMBs == 0;
-    if (isUnset) {
-        disk.latencyMs = usualDiskMs;
-        disk.bandwidthMBs = usualDiskMBs;
-    }
+    if (!isDiff) setUsualDisk(disk);
     disk.latencyMs = options.diskMs.value_or(disk.latencyMs);
     disk.bandwidthMBs = options.diskMBs.value_or(disk.bandwidthMBs);
 }

@@ -67,9 +67,6 @@ void openAtlas(AtlasController& controller, const std::filesystem::path& file, N
             fmt::format("{} opened: {} viewpoints", file.string(), controller.atlas->viewpoints.size()));
 }
 
-// The disk of a survey if the settings have none, so that the time until it is sharp says something.
-constexpr planet::BadDiskSettings surveyedDisk{.latencyMs = 5, .bandwidthMBs = 100};
-
 void startAtlas(AtlasController& controller, const ui::StartAtlas& start, const AtlasContext& context,
                 Notices& notices) {
     if (!context.open || controller.job) return;
@@ -80,11 +77,7 @@ void startAtlas(AtlasController& controller, const ui::StartAtlas& start, const 
     request.file = context.open->data.chunkFile;
     request.output = *file;
     request.view = context.settings.settings.view;
-    planet::BadDiskSettings& disk = request.view.paging.badDisk;
-    if (disk.latencyMs == 0 && disk.bandwidthMBs == 0) {
-        disk.latencyMs = surveyedDisk.latencyMs;
-        disk.bandwidthMBs = surveyedDisk.bandwidthMBs;
-    }
+    setUsualDisk(request.view.paging.badDisk);
     request.grid.most = start.viewpoints;
     request.measuresError = start.measuresError;
     request.threads = static_cast<std::size_t>(backgroundThreads());

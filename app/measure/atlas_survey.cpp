@@ -160,6 +160,12 @@ Result<OpenedAtlas> beginAtlas(const AtlasRequest& request, const AtlasSurvey& s
 
 }  // namespace
 
+void setUsualDisk(planet::BadDiskSettings& disk) {
+    if (disk.latencyMs != 0 || disk.bandwidthMBs != 0) return;
+    disk.latencyMs = 5;
+    disk.bandwidthMBs = 100;
+}
+
 Result<AtlasOutcome> surveyAtlas(const AtlasRequest& request, const WatchAtlas& goOn) {
     TRY_ASSIGN(const auto file, planet::ChunkFile::open(request.file));
     TRY_ASSIGN(const AtlasSurvey survey, surveyOf(request, file));

@@ -12,6 +12,7 @@
 #include "app/settings/view_settings.h"
 #include "planet/measure/atlas.h"
 #include "planet/measure/atlas_run.h"
+#include "planet/paging/disk_simulator.h"
 
 namespace worldy {
 
@@ -34,6 +35,10 @@ struct AtlasOutcome {
     planet::AtlasRun run;
     double treeS = 0;  // for reading the tree
 };
+
+// Gives a disk that is not slowed a latency of 5 ms and 100 MB/s, because the time until a picture is sharp says little
+// about an immediate disk.
+void setUsualDisk(planet::BadDiskSettings& disk);
 
 // Called a few times per second, from any thread, one call at a time. While the tree is read, there is no progress yet.
 // Returning false cancels.
