@@ -297,8 +297,8 @@ void stepCompared(CompareController& controller, const CompareFrame& now, const 
         b.drawn = {};
     }
     for (const std::string& problem : takeProblems(b)) log->error("B: {}", problem);
-    advanceErrorMeter(*now.a.planet, now.frame, now.timeS, controller.meters[0].errors);
-    advanceErrorMeter(*b.planet, now.frame, now.timeS, controller.meters[1].errors);
+    advanceErrorMeter(*now.a.planet, now.frame, controller.meters[0].errors);
+    advanceErrorMeter(*b.planet, now.frame, controller.meters[1].errors);
 }
 
 void drawCompared(CompareController& controller, Viewport& viewport, const ViewSettings& settings,

@@ -330,7 +330,7 @@ FrameStats Editor::runPlanet(Scene& scene, double seconds, ui::Commands& command
                                   frames_.timeS);
     if (settings.overlay.notes)
         coverPins(files_.notes, *scene.planet, viewport_.main.view, settings.surface.exaggeration);
-    advanceErrorMeter(*scene.planet, frames_.frame, frames_.timeS, instruments_.errors);
+    advanceErrorMeter(*scene.planet, frames_.frame, instruments_.errors);
     advanceRuler(*scene.planet, frames_.timeS, instruments_.ruler);
     stepCompared(compare_,
                  {scene, settings, camera_.lodView, mainView(camera_, viewport_, settings.camera),
@@ -462,7 +462,7 @@ ui::EditorView Editor::view(Session& session) {
             .camera = cameraViewOf(camera_, scene, view, settings_.settings.workspace.preferences),
             .settings = settingsViewOf(settings_),
             .instruments = std::move(instruments),
-            .recording = recordingViewOf(recording_, settings),
+            .recording = recordingViewOf(recording_),
             .compare = compareViewOf(compare_, session, settings, frames_.stats, view),
             .sweep = sweepViewOf(sweep_),
             .layers = layersViewOf(layers_, scene, settings.surface.layers),

@@ -281,7 +281,7 @@ Result<void> advanceReplay(RunningReplay& running, Scene& scene, double seconds,
     return {};
 }
 
-ui::RecordingView recordingViewOf(const RecordingController& controller, const ViewSettings& settings) {
+ui::RecordingView recordingViewOf(const RecordingController& controller) {
     ui::RecordingView view;
     view.flights = controller.flights;
     view.saved = controller.saved;
@@ -290,7 +290,7 @@ ui::RecordingView recordingViewOf(const RecordingController& controller, const V
     if (recorder && !controller.replay) {
         const FlightEncoder& encoded = recorder->encoded();
         view.recording = ui::RecordingNow{recorder->name(), encoded.seconds(), encoded.frames(),
-                                          static_cast<double>(encoded.bytes()), settings.paging.simulated};
+                                          static_cast<double>(encoded.bytes())};
     }
     if (controller.replay) {
         const RunningReplay& running = *controller.replay;

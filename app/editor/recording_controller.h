@@ -121,6 +121,6 @@ void giveSettings(RecordingController& controller, Scene& scene, const ViewSetti
 // ended.
 bool recordFrame(RecordingController& controller, planet::Planet& planet, const Log& log);
 
-ui::RecordingView recordingViewOf(const RecordingController& controller, const ViewSettings& settings);
+ui::RecordingView recordingViewOf(const RecordingController& controller);
 
 }  // namespace worldy

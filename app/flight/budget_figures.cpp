@@ -27,12 +27,4 @@ BudgetFigures budgetFiguresOf(std::span<const BudgetedFrame> frames, std::option
     return figures;
 }
 
-double settlingTimeS(std::span<const BudgetedFrame> frames, double stepS, double untilS) {
-    double last = 0;
-    for (const BudgetedFrame& frame : frames) {
-        if (frame.timeS >= stepS && frame.timeS < untilS && frame.use > 1) last = frame.timeS - stepS;
-    }
-    return last;
-}
-
 }  // namespace worldy

@@ -25,14 +25,9 @@ struct BudgetFigures {
     int atUpperLimit = 0;
     double mostUse = 0;
     double medianUse = 0;  // of the frames in which τ is above its lower limit; 0 if there are none
-
-    double overShare() const { return frames > 0 ? static_cast<double>(over) / frames : 0; }
 };
 
 // stepS: time of a step in cost, if there is one.
 BudgetFigures budgetFiguresOf(std::span<const BudgetedFrame> frames, std::optional<double> stepS = {});
-
-// Returns the seconds from a step to the last frame over budget before untilS; 0 if none is.
-double settlingTimeS(std::span<const BudgetedFrame> frames, double stepS, double untilS);
 
 }  // namespace worldy

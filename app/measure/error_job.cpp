@@ -71,7 +71,7 @@ void forgetErrors(ErrorMeter& meter) {
     meter.keepMeasuring = keep;
 }
 
-void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double timeS, ErrorMeter& meter) {
+void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, ErrorMeter& meter) {
     takeResult(meter);
     meter.current = meter.last && isOf(*meter.last, planet);
     const bool again = meter.keepMeasuring && !meter.current;  // the same chunks have the same error
@@ -82,7 +82,6 @@ void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double
             std::make_shared<planet::FinestHeights>(std::make_shared<const planet::ChunkFile>(planet.file()));
     meter.running = frameOf(planet);
     meter.running.frame = frame;
-    meter.running.atS = timeS;
     meter.job = std::make_unique<ErrorJob>(drawnSnapshotOf(planet), meter.heights);
 }
 

@@ -47,6 +47,6 @@ void forgetErrors(ErrorMeter& meter);
 
 // Takes a finished measurement, and starts a requested one with the planet's first view. Call it once per
 // frame after the selection.
-void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, double timeS, ErrorMeter& meter);
+void advanceErrorMeter(const planet::Planet& planet, std::uint64_t frame, ErrorMeter& meter);
 
 }  // namespace worldy

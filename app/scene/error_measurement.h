@@ -18,7 +18,6 @@ struct ErrorMeasurement {
     std::unordered_map<planet::ChunkId, std::size_t> indexOf;  // in the report's chunks
     std::vector<std::size_t> worstFirst;                       // violations, then by facing pixels
     std::uint64_t frame = 0;                                   // since the window opened
-    double atS = 0;                                            // seconds since the window opened
     planet::View lodView;                                      // the view that chose the measured chunks
     double tauPx = 2;
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;

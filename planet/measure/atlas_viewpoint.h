@@ -33,7 +33,6 @@ struct AtlasCosts {
     double errorS = 0;   // true error
     double moveS = 0;    // pops and thrashes
 
-    double sumS() const { return groundS + settleS + errorS + moveS; }
     AtlasCosts& operator+=(const AtlasCosts& other);
 };
 

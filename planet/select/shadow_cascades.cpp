@@ -53,7 +53,6 @@ ShadowCascade cascadeAround(const View& view, const SunAxes& axes, const PieceSp
     const glm::dvec3 middle = -view.back * piece.alongM;
     const glm::dvec2 at(wholeTexels(glm::dot(axes.x, view.eyeM), glm::dot(axes.x, middle), cascade.texelM),
                         wholeTexels(glm::dot(axes.y, view.eyeM), glm::dot(axes.y, middle), cascade.texelM));
-    cascade.depthM = 2 * halfM;
     const auto row = [](const glm::dvec3& axis, double offset, double scale) {
         return glm::dvec4(axis, -offset) * scale;
     };

@@ -30,7 +30,6 @@ struct ShadowCascade {
     // casters nearer to the sun to it.
     glm::dmat4 clipFromEye{1};
     double texelM = 0;  // side of a texel
-    double depthM = 0;  // range of z
 };
 using ShadowCascades = std::array<ShadowCascade, shadowCascadeCount>;
 

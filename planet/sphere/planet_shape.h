@@ -81,12 +81,7 @@ constexpr int deepestLevelOf(const PlanetShape& shape) {
 constexpr std::uint64_t chunkCellCount(const PlanetShape& shape) {
     return std::uint64_t{1} << (2 * shape.chunkCellsLog2);
 }
-// Return the numbers of distinct finest samples, and of chunks of all levels, of a planet whose leaves are
-// all at the deepest level.
-constexpr std::uint64_t sampleCountOf(const PlanetShape& shape) {
-    const auto cells = static_cast<std::uint64_t>(faceCells(shape));
-    return faceCount * cells * cells + 2;
-}
+// Returns the number of chunks of all levels of a planet whose leaves are all at the deepest level.
 constexpr std::uint64_t chunkCountOf(const PlanetShape& shape) {
     return faceCount * ((std::uint64_t{1} << (2 * (deepestLevelOf(shape) + 1))) - 1) / 3;
 }

@@ -24,7 +24,6 @@ inline constexpr std::size_t maxTraceNames = 4096;
 inline constexpr std::size_t maxTraceThreads = 64;
 inline constexpr std::size_t maxTraceNameBytes = 255;
 inline constexpr std::size_t maxTraceTextBytes = 4095;
-inline constexpr std::uint32_t maxTraceLevel = 64;
 
 struct TraceBlockHeader {
     std::uint32_t bytes = 0;            // after the header: definitions, then events

@@ -22,7 +22,6 @@ struct RecordingNow {
     double seconds = 0;
     std::size_t frames = 0;
     double bytes = 0;  // before compression
-    bool simulated = false;
 };
 
 // A frame in which chunks were split or merged.

@@ -97,7 +97,7 @@ TEST_F(RecordingControllerTest, AFileThatHasTakenTheNameMeanwhileStays) {
         std::ifstream stream(taken);
         EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "another's");
         EXPECT_FALSE(controller_.unwritten);
-        EXPECT_EQ(recordingViewOf(controller_, settings_).saved, name == "canyon" ? "canyon 2" : "flight 2");
+        EXPECT_EQ(recordingViewOf(controller_).saved, name == "canyon" ? "canyon 2" : "flight 2");
     }
     EXPECT_EQ(loadFlightRecord(controller_.folder / "flight 2.flight").value().name, "flight 2");
     EXPECT_EQ(loadFlightRecord(controller_.folder / "canyon 2.flight").value().name, "canyon 2");
@@ -110,7 +110,7 @@ TEST_F(RecordingControllerTest, WhatCannotBeWrittenIsKeptUntilItCan) {
     stopRecording(controller_, scene_->planet.get(), log_);
     EXPECT_FALSE(controller_.recorder);  // nothing more is recorded
     ASSERT_TRUE(controller_.unwritten);
-    EXPECT_EQ(recordingViewOf(controller_, settings_).recording->frames, 3u);  // to be stopped again
+    EXPECT_EQ(recordingViewOf(controller_).recording->frames, 3u);  // to be stopped again
     const auto other = startRecording(controller_, *scene_->planet, "b");
     ASSERT_FALSE(other);
     EXPECT_THAT(other.error().message, HasSubstr("\"a\" is not saved yet"));
@@ -124,7 +124,7 @@ TEST_F(RecordingControllerTest, WhatCannotBeWrittenIsKeptUntilItCan) {
     EXPECT_FALSE(controller_.unwritten);
     EXPECT_EQ(controller_.saveProblem, "");
     EXPECT_EQ(controller_.saved, "a");
-    EXPECT_FALSE(recordingViewOf(controller_, settings_).recording);
+    EXPECT_FALSE(recordingViewOf(controller_).recording);
     EXPECT_EQ(loadFlightRecord(controller_.folder / "a.flight").value().frames.size(), 3u);
     EXPECT_EQ(controller_.flights.size(), 1u);
 }
@@ -146,7 +146,7 @@ TEST_F(RecordingControllerTest, AReplayPlaysToItsEndAndIsExact) {
     EXPECT_EQ(frame(), 40u);
     EXPECT_EQ(stepped_, 40);
     EXPECT_EQ(told_.lod.tauPx, 5);
-    const ui::RecordingView view = recordingViewOf(controller_, settings_);
+    const ui::RecordingView view = recordingViewOf(controller_);
     EXPECT_EQ(view.replay->framesDifferent, 0u) << view.replay->difference;
     EXPECT_FALSE(view.replay->ticks.empty());
     EXPECT_EQ(stopReplay(controller_, scene_.get()).settings.lod.tauPx, 2);

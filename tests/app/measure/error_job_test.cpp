@@ -7,9 +7,8 @@
 
 #include "app/editor/instrument_views.h"
 #include "app/scene/overlay_colours.h"
-#include "planet/bake/bake.h"
+#include "tests/support/hills_planet.h"
 #include "tests/support/sudden_lod.h"
-#include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/model/overlay_legend.h"
 
@@ -19,13 +18,6 @@ namespace {
 class Errors : public testing::Test {
 protected:
     Errors() {
-        const auto path = folder_ / "hills.chk";
-        planet::BakeSettings settings;
-        settings.chunkSize = 17;
-        settings.radiusM = 100'000;
-        if (!planet::bake(planet::test::hillsSource(), settings, path))
-            throw std::runtime_error("cannot bake");
-        planet_ = planet::Planet::open(path, {}).value();
         lod_.tauPx = 3;
         view_ = planet::viewFromPose(
             {.latitudeDeg = 10, .longitudeDeg = 20, .altitudeM = 15'000, .pitchDeg = -20}, 100'000, 1.1, 800,
@@ -36,7 +28,7 @@ protected:
     // Frames until nothing is measured any more; fails after a minute.
     void runUntilDone(std::uint64_t frame) {
         for (int i = 0; i < 60'000; ++i) {
-            advanceErrorMeter(*planet_, frame, 0.5, meter_);
+            advanceErrorMeter(*planet_, frame, meter_);
             if (!meter_.job) return;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
@@ -44,14 +36,14 @@ protected:
     }
 
     tests::TemporaryFolder folder_;
-    std::unique_ptr<planet::Planet> planet_;
+    std::unique_ptr<planet::Planet> planet_ = planet::test::openHills(folder_ / "hills.chk");
     planet::LodSettings lod_ = planet::suddenLod();
     planet::View view_;
     ErrorMeter meter_;
 };
 
 TEST_F(Errors, AreMeasuredOnceWhenAskedFor) {
-    advanceErrorMeter(*planet_, 6, 0.1, meter_);
+    advanceErrorMeter(*planet_, 6, meter_);
     EXPECT_FALSE(errorsViewOf(meter_, 6).running) << "nobody asked";
     meter_.wanted = true;
     EXPECT_TRUE(errorsViewOf(meter_, 6).running);
@@ -64,7 +56,7 @@ TEST_F(Errors, AreMeasuredOnceWhenAskedFor) {
         planet::snapshotOf(planet_->tree(), planet_->selection().draw, view_, false), heights);
     EXPECT_EQ(meter_.last->report, *directly);
     EXPECT_GT(meter_.last->report.worstFacingPx, 0.1);
-    advanceErrorMeter(*planet_, 8, 0.6, meter_);
+    advanceErrorMeter(*planet_, 8, meter_);
     EXPECT_FALSE(meter_.job);
 }
 
@@ -72,7 +64,7 @@ TEST_F(Errors, AreOutOfDateOnceAnythingElseIsDrawn) {
     meter_.wanted = true;
     runUntilDone(1);
     const auto current = [&] {
-        advanceErrorMeter(*planet_, 2, 1, meter_);
+        advanceErrorMeter(*planet_, 2, meter_);
         return errorsViewOf(meter_, 2).current;
     };
     EXPECT_TRUE(current());
@@ -97,12 +89,12 @@ TEST_F(Errors, AreOutOfDateOnceAnythingElseIsDrawn) {
 TEST_F(Errors, AreMeasuredAgainWhenTheViewHasChangedWhileThatIsSet) {
     meter_.keepMeasuring = true;
     runUntilDone(1);
-    advanceErrorMeter(*planet_, 2, 0, meter_);
+    advanceErrorMeter(*planet_, 2, meter_);
     EXPECT_FALSE(meter_.job) << "the same chunks are measured twice";
     planet::View elsewhere = view_;
     elsewhere.eyeM *= 1.001;
     planet_->settle(elsewhere, lod_, planet::noUpload, 60);
-    advanceErrorMeter(*planet_, 3, 0, meter_);
+    advanceErrorMeter(*planet_, 3, meter_);
     EXPECT_TRUE(meter_.job);
     forgetErrors(meter_);
     EXPECT_FALSE(meter_.last);
@@ -117,10 +109,10 @@ TEST_F(Errors, ThatCannotBeMeasuredSayWhyAndStop) {
                 planet::ioError("hills.chk: reading the block of chunk " + planet::toString(parent)));
         });
     meter_.keepMeasuring = true;
-    advanceErrorMeter(*planet_, 1, 0, meter_);
+    advanceErrorMeter(*planet_, 1, meter_);
     for (int i = 0; i < 60'000 && meter_.keepMeasuring; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        advanceErrorMeter(*planet_, 2, 0, meter_);
+        advanceErrorMeter(*planet_, 2, meter_);
     }
     EXPECT_FALSE(meter_.keepMeasuring);
     EXPECT_NE(errorsViewOf(meter_, 2).problem.find("hills.chk"), std::string::npos);

@@ -133,7 +133,7 @@ protected:
         if (chance(20)) scene.planet->tools().retryFailed();
         if (lastScene_ != scene.identity) forgetErrors(errors_);
         lastScene_ = scene.identity;
-        advanceErrorMeter(*scene.planet, frames_, static_cast<double>(frames_), errors_);
+        advanceErrorMeter(*scene.planet, frames_, errors_);
         expectSound(*scene.planet);
         if (!chance(4)) return;
         target_->bind();

@@ -58,7 +58,7 @@ TEST(ShadowCascades, WhatIsNearerToTheSunIsLessDeep) {
         const glm::dvec4 nearer = cascade.clipFromEye * glm::dvec4(glm::dvec3(100, 200, 300) + 50.0 * sun, 1);
         EXPECT_NEAR(nearer.x, here.x, 1e-9);
         EXPECT_NEAR(nearer.y, here.y, 1e-9);
-        EXPECT_NEAR(here.z - nearer.z, 2 * 50 / cascade.depthM, 1e-9);
+        EXPECT_NEAR(here.z - nearer.z, 2 * 50 / (512 * cascade.texelM), 1e-9);
     }
 }
 

@@ -299,7 +299,6 @@ void sampleQueue(const planet::Planet& planet, int shownView, PagingPanelState::
     sample.loads = static_cast<std::size_t>(
         std::ranges::count_if(loads, [](const auto& load) { return !load.isPrefetch(); }));
     sample.prefetches = loads.size() - sample.loads;
-    sample.evictions = planet.inspect().pendingRequests(planet::PagingType::PageOut).size();
     for (const planet::PagingType type : {planet::PagingType::PageIn, planet::PagingType::PageOut}) {
         const auto requests =
             shownView < 0 ? planet.inspect().pendingRequests(type)

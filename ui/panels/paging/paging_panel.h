@@ -45,11 +45,10 @@ struct PagingPanelState {
         int shownView = -1;
         std::optional<planet::BlockKind> shownKind{};
         bool latencyOfReading = false;
-        std::vector<PagingRow> queue;  // page-ins, then page-outs, each most urgent first
-        std::size_t hidden = 0;        // requests of the other kinds
-        std::size_t loads = 0;         // queued loads, of all kinds and views, without prefetches
-        std::size_t prefetches = 0;    // queued
-        std::size_t evictions = 0;
+        std::vector<PagingRow> queue;             // page-ins, then page-outs, each most urgent first
+        std::size_t hidden = 0;                   // requests of the other kinds
+        std::size_t loads = 0;                    // queued loads, of all kinds and views, without prefetches
+        std::size_t prefetches = 0;               // queued
         std::vector<planet::FailedBlock> failed;  // filled only while the list is shown
         bool failedShown = false;
         std::vector<float> latencyCounts;

@@ -10,7 +10,6 @@ namespace worldy::ui {
 struct TraceTimelineState {
     double from = 0;      // [0, to)
     double to = 1;        // (from, 1]
-    bool newest = true;   // a growing trace stays in view up to its end
     std::string counter;  // that is plotted; empty: none
 };
 

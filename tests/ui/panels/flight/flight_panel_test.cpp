@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/model/editor_view.h"
@@ -49,15 +50,11 @@ TEST(FlightPanel, ChangesAreSteppedThroughOneByOne) {
 TEST(FlightPanel, aRecordingIsSelectedOnceAndAgainUnderTheNameItIsSavedBy) {
     PanelWindow window{{400, 600}};
     FlightPanelState state;
-    const FrameStats stats;
-    const std::deque<FrameSample> history;
-    const planet::LodChanges changes;
-    const std::deque<LogLine> log;
-    EditorView view{
-        .frames = {.stats = stats, .history = history}, .log = log, .instruments = {.changes = changes}};
+    EmptyView empty;
+    EditorView& view = empty.view;
     const auto planet = planet::openFake();
     view.planet = planet.get();
-    view.recording.recording = RecordingNow{"flight 7", 1, 60, 1000, false};
+    view.recording.recording = RecordingNow{"flight 7", 1, 60, 1000};
     ViewSettings settings;
     Commands commands;
     const auto draw = [&] { window.frame([&] { flightPanel(view, state, settings, commands); }); };
