@@ -61,6 +61,10 @@ std::string countText(double count) {
     return fmt::format("{} {}", threeDigits(count), units[unit]);
 }
 
+std::string countedText(std::uint64_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string durationText(double seconds) {
     if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
     const long long whole = std::llround(seconds);

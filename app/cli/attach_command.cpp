@@ -89,10 +89,6 @@ void receive(const AttachOptions& options, planet::TraceLink& link) {
     lines.take(link.status());
 }
 
-std::string countedText(std::uint64_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 void printSummary(const std::vector<planet::TraceLinkFile>& files) {
     for (const planet::TraceLinkFile& file : files) {
         fmt::print("{}: {}, {}, {}, {} dropped by the engine\n", file.path.string(),

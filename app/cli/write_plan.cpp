@@ -55,6 +55,17 @@ void addLevelImages(CommandFiles& files, const fs::path& folder) {
     }
 }
 
+// Returns the files of a command that flies over a chunk file and writes a report.
+template <class Options>
+CommandFiles flownFiles(const Options& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    files.inputs.push_back(options.flight);
+    addLayerFiles(files, options.view);
+    files.outputs = {{options.report.file, OutputKind::Json}};
+    return files;
+}
+
 }  // namespace
 
 CommandFiles filesOf(const AppOptions& options) {
@@ -78,12 +89,7 @@ CommandFiles filesOf(const AtlasOptions& options) {
 }
 
 CommandFiles filesOf(const AuditOptions& options) {
-    CommandFiles files;
-    addChunkFile(files, options.file);
-    files.inputs.push_back(options.flight);
-    addLayerFiles(files, options.view);
-    files.outputs = {{options.report.file, OutputKind::Json}};
-    return files;
+    return flownFiles(options);
 }
 
 CommandFiles filesOf(const BakeOptions& options) {
@@ -136,20 +142,16 @@ CommandFiles filesOf(const CostsOptions& options) {
 }
 
 CommandFiles filesOf(const CracksOptions& options) {
-    CommandFiles files;
-    addChunkFile(files, options.file);
-    files.inputs.insert(files.inputs.end(), {options.flight, options.shaderFolder});
-    addLayerFiles(files, options.view);
-    files.outputs = {{options.report.file, OutputKind::Json}, {options.markedPicture, OutputKind::Picture}};
+    CommandFiles files = flownFiles(options);
+    files.inputs.push_back(options.shaderFolder);
+    files.outputs.push_back({options.markedPicture, OutputKind::Picture});
     return files;
 }
 
 CommandFiles filesOf(const FlyOptions& options) {
-    CommandFiles files;
-    addChunkFile(files, options.file);
-    files.inputs.insert(files.inputs.end(), {options.flight, options.shaderFolder});
-    addLayerFiles(files, options.view);
-    files.outputs = {{options.report.file, OutputKind::Json}, {options.trace, OutputKind::Trace}};
+    CommandFiles files = flownFiles(options);
+    files.inputs.push_back(options.shaderFolder);
+    files.outputs.push_back({options.trace, OutputKind::Trace});
     return files;
 }
 
@@ -167,21 +169,12 @@ CommandFiles filesOf(const MakeLayersOptions& options) {
 }
 
 CommandFiles filesOf(const PopsOptions& options) {
-    CommandFiles files;
-    addChunkFile(files, options.file);
-    files.inputs.push_back(options.flight);
-    addLayerFiles(files, options.view);
-    files.outputs = {{options.report.file, OutputKind::Json}};
-    return files;
+    return flownFiles(options);
 }
 
 CommandFiles filesOf(const PrefetchOptions& options) {
-    CommandFiles files;
-    addChunkFile(files, options.file);
-    files.inputs.push_back(options.flight);
-    addLayerFiles(files, options.view);
-    files.outputs = {
-        {options.report.file, isCsvTable(options.report.file) ? OutputKind::Csv : OutputKind::Json}};
+    CommandFiles files = flownFiles(options);
+    if (isCsvTable(options.report.file)) files.outputs[0].kind = OutputKind::Csv;
     return files;
 }
 

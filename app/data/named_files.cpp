@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/base/text.h"
 #include "app/base/utf8.h"
 
 namespace worldy {
@@ -20,9 +21,7 @@ constexpr std::string_view ending = ".toml";
 // Lower-cases ASCII letters, which is enough to detect clashes on file systems that ignore case.
 std::string lowered(std::string_view text) {
     std::string lower(text);
-    for (char& letter : lower) {
-        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-    }
+    std::ranges::transform(lower, lower.begin(), lowerAscii);
     return lower;
 }
 

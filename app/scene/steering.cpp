@@ -1,4 +1,5 @@
 #include "app/scene/steering.h"
+#include "app/base/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,16 +56,12 @@ CameraMotion plainMotion(const SteeringState& state) {
     return {};
 }
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 }  // namespace
 
 bool isSpaceMouse(std::string_view name) {
     constexpr std::array<std::string_view, 3> known = {"spacenavigator", "spacemouse", "3dconnexion"};
     std::string lowered(name);
-    std::ranges::transform(lowered, lowered.begin(), lower);
+    std::ranges::transform(lowered, lowered.begin(), lowerAscii);
     return std::ranges::any_of(
         known, [&](std::string_view part) { return lowered.find(part) != std::string::npos; });
 }

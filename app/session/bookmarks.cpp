@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 #include "app/base/output_file.h"
 #include "app/base/places.h"
@@ -108,17 +107,11 @@ Result<std::vector<ui::Bookmark>> readBookmarks(const fs::path& file) {
     return own;
 }
 
-std::string quoted(const std::string& text) {
-    std::ostringstream stream;
-    stream << toml::value<std::string>(text);
-    return stream.str();
-}
-
 Result<void> writeBookmarks(const Bookmarks& bookmarks) {
     std::string text = "# Worldy's bookmarks: places to fly to.\n";
     for (const ui::Bookmark& bookmark : bookmarks.list) {
         if (bookmark.shipped) continue;
-        text += fmt::format("\n[[bookmark]]\nname = {}\n", quoted(bookmark.name));
+        text += fmt::format("\n[[bookmark]]\nname = {}\n", tomlText(bookmark.name));
         for (const PoseField& field : poseFields)
             text += fmt::format("{} = {}\n", field.name, bookmark.pose.*field.value);
     }

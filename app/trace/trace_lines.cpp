@@ -98,9 +98,7 @@ planet::Lines traceLines(const TracedFrame& frame, const TracedView& view, doubl
             !isFinite(bounds))
             continue;
         const glm::dvec3 centreM = scale * bounds.centre;
-        const double reachM =
-            scale * (bounds.shape == TraceBoundsShape::Sphere ? bounds.radius : glm::length(bounds.halfSize));
-        if (glm::length(centreM - eyeM) - reachM > horizonM) continue;
+        if (glm::length(centreM - eyeM) - scale * bounds.reach() > horizonM) continue;
         appendBounds(bounds, scale, isSelected ? selectedColour : colourOf(node, view.tauPx, overlay), lines);
     }
     for (const TracedView& each : frame.views)

@@ -14,16 +14,6 @@ double axis(int more, int less) {
     return (ImGui::IsKeyDown(more) ? 1.0 : 0.0) - (ImGui::IsKeyDown(less) ? 1.0 : 0.0);
 }
 
-// Keys are read as characters, since + and - are elsewhere on other keyboards.
-int speedSteps() {
-    int steps = 0;
-    for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
-        if (letter == '+' || letter == '=') ++steps;
-        if (letter == '-') --steps;
-    }
-    return steps;
-}
-
 glm::dvec2 dragOf(ImGuiMouseButton button) {
     const ImVec2 delta = ui::dragDelta(button);
     return {static_cast<double>(delta.x), static_cast<double>(delta.y)};
@@ -46,7 +36,7 @@ KeyInput readKeys() {
                  .up = axis(GLFW_KEY_E, GLFW_KEY_Q),
                  .lookRight = axis(GLFW_KEY_L, GLFW_KEY_J),
                  .lookUp = axis(GLFW_KEY_I, GLFW_KEY_K)};
-    if (!ui::plotTakesKeys()) keys.speedSteps = speedSteps();
+    if (!ui::plotTakesKeys()) keys.speedSteps = ui::typedSteps();
     return keys;
 }
 
@@ -63,7 +53,6 @@ PointerInput readPointer(float pixelRatio) {
          : isHeld   ? input.speedNotches
                     : input.wheelNotches) = static_cast<double>(io.MouseWheel);
     input.clicked = clickedInPlace();
-    input.doubleClicked = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (!isHeld) return input;
     input.grabs = io.KeyAlt;
     input.isPressed = !io.KeyAlt && ImGui::IsMouseDown(ImGuiMouseButton_Left);

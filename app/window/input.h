@@ -21,7 +21,6 @@ struct PointerInput {
     double speedNotches = 0;      // of the wheel while a button is held
     double fovNotches = 0;        // of the wheel with Ctrl; towards a narrower field of view
     bool clicked = false;         // pressed and released in one place
-    bool doubleClicked = false;
 };
 
 struct KeyInput {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <system_error>
 #include <utility>
@@ -37,6 +38,13 @@ OpenFile::OpenFile(OpenFile&& other) noexcept
 
 void OpenFile::close() {
     if (descriptor_ >= 0) calls_.close(std::exchange(descriptor_, -1));
+}
+
+Result<std::uint64_t> OpenFile::size() const {
+    struct stat status {};
+    if (uninterrupted([&] { return calls_.fstat(descriptor_, &status); }) != 0)
+        return ioError(fmt::format("{}: cannot be read: {}", name_, lastSystemError()));
+    return static_cast<std::uint64_t>(status.st_size);
 }
 
 Result<void> OpenFile::read(std::uint64_t offset, std::span<std::byte> out) const {

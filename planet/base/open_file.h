@@ -41,6 +41,8 @@ public:
     const FileCalls& calls() const { return calls_; }
     void close();
 
+    // Returns the size of the file now, bytes.
+    Result<std::uint64_t> size() const;
     // Fills all of `out`; a shorter file is an Error. The Errors name the file.
     Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
     Result<void> write(std::uint64_t offset, std::span<const std::byte> bytes) const;

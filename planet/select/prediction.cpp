@@ -10,6 +10,7 @@
 
 #include "planet/select/screen_error.h"
 #include "planet/sphere/culling.h"
+#include "planet/tree/sphere_polygon.h"
 
 namespace planet {
 
@@ -23,10 +24,6 @@ glm::dvec3 turned(const glm::dvec3& vector, const glm::dvec3& axis, double angle
     return glm::angleAxis(angleRad, axis) * vector;
 }
 
-double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 // The shortest way along the sphere from one eye to another.
 struct Travel {
     glm::dvec3 axis{0, 0, 1};  // orthogonal to both; any such axis if they are equal
@@ -37,7 +34,7 @@ Travel travelBetween(const glm::dvec3& from, const glm::dvec3& to) {
     const glm::dvec3 across = glm::cross(from, to);
     const double length = glm::length(across);
     if (length < 1e-14 * glm::length(from) * glm::length(to)) return {};
-    return {across / length, angleBetween(from, to)};
+    return {across / length, angleBetweenRad(from, to)};
 }
 
 glm::dmat3 orientationOf(const View& view) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -48,6 +49,8 @@ struct TraceBounds {
     std::array<glm::dvec3, 3> axes{};  // of a box: unit, orthogonal, the third roughly up
     glm::dvec3 halfSize{0, 0, 0};      // of a box, along each axis, world units
 
+    // Returns the radius of the smallest sphere around the centre that holds the bounds, world units.
+    double reach() const { return shape == TraceBoundsShape::Sphere ? radius : glm::length(halfSize); }
     bool operator==(const TraceBounds&) const = default;
 };
 

@@ -61,10 +61,6 @@ double elapsedS(const TraceDataState& request, double endS, std::uint64_t endNs)
 // Bounds can touch whose centres are at most this times the sum of their radii apart.
 constexpr double touchReach = 1.1;
 
-double radiusOf(const TraceBounds& bounds) {
-    return bounds.shape == TraceBoundsShape::Sphere ? bounds.radius : glm::length(bounds.halfSize);
-}
-
 // Returns whether the coarser box contains the place just beyond the middle of a side of the finer one. Heights count only as
 // far as the two boxes reach together, because neighbours lie beside each other.
 bool boxesTouch(const TraceBounds& finer, const TraceBounds& coarser) {
@@ -91,7 +87,7 @@ bool spheresTouch(const TraceBounds& a, const TraceBounds& b) {
 }
 
 bool areNear(const TraceBounds& a, const TraceBounds& b) {
-    return glm::length(a.centre - b.centre) <= touchReach * (radiusOf(a) + radiusOf(b));
+    return glm::length(a.centre - b.centre) <= touchReach * (a.reach() + b.reach());
 }
 
 bool touch(const TraceBounds& finer, const TraceBounds& coarser) {
@@ -543,7 +539,7 @@ void TraceFaultFinder::findStepsByBounds(const TraceState& state, int view, cons
     const auto isSwept = [&](TraceNodeIndex node) {
         const TraceBounds& bounds = boundsOf(node);
         return memory.below[node] != frames_ && bounds.shape != TraceBoundsShape::None &&
-               std::isfinite(glm::length(bounds.centre) + radiusOf(bounds));
+               std::isfinite(glm::length(bounds.centre) + bounds.reach());
     };
     glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
     for (const TraceNodeIndex node : memory.list) {
@@ -557,7 +553,7 @@ void TraceFaultFinder::findStepsByBounds(const TraceState& state, int view, cons
     std::vector<SweptNode> swept;
     for (const TraceNodeIndex node : memory.list) {
         if (!isSwept(node)) continue;
-        const double middle = boundsOf(node).centre[axis], reach = touchReach * radiusOf(boundsOf(node));
+        const double middle = boundsOf(node).centre[axis], reach = touchReach * boundsOf(node).reach();
         swept.push_back({middle - reach, middle + reach, node, state.nodes()[node].node.level});
     }
     std::ranges::stable_sort(swept, {}, &SweptNode::from);

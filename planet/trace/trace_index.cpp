@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -12,16 +11,7 @@
 
 namespace planet {
 
-namespace {
-
-Result<std::uint64_t> sizeOf(const OpenFile& file) {
-    struct stat status {};
-    if (uninterrupted([&] { return file.calls().fstat(file.descriptor(), &status); }) != 0)
-        return ioError(fmt::format("{}: cannot be read: {}", file.name(), lastSystemError()));
-    return static_cast<std::uint64_t>(status.st_size);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 tl::unexpected<Error> TraceFile::damaged(std::uint64_t offset, const std::string& what) const {
     return badInput(fmt::format("{}: byte {}: {}", name_, offset, what));
@@ -30,7 +20,7 @@ tl::unexpected<Error> TraceFile::damaged(std::uint64_t offset, const std::string
 Result<TraceFile> TraceFile::open(const std::filesystem::path& path, const FileCalls& calls) {
     TRY_ASSIGN(auto file, OpenFile::open(path, O_RDONLY, calls));
     TraceFile trace(std::move(file), path.string());
-    TRY_ASSIGN(const auto size, sizeOf(trace.file_));
+    TRY_ASSIGN(const auto size, trace.file_.size());
     if (size < traceHeaderBytes)
         return trace.damaged(
             0, fmt::format("{} bytes are no trace; expected a file that lod_trace.h wrote", size));
@@ -43,7 +33,7 @@ Result<TraceFile> TraceFile::open(const std::filesystem::path& path, const FileC
 }
 
 Result<std::size_t> TraceFile::refresh() {
-    TRY_ASSIGN(const auto size, sizeOf(file_));
+    TRY_ASSIGN(const auto size, file_.size());
     problem_.reset();
     cut_.reset();
     std::array<std::byte, traceBlockHeaderBytes> bytes{};

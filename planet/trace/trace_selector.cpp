@@ -20,10 +20,6 @@ bool stampOnce(std::vector<std::uint32_t>& stamps, TraceNodeIndex node, std::uin
     return std::exchange(stamps[node], stamp) != stamp;
 }
 
-double boundingRadius(const TraceBounds& bounds) {
-    return bounds.shape == TraceBoundsShape::Sphere ? bounds.radius : glm::length(bounds.halfSize);
-}
-
 // Returns how far bounds reach from their centre along a direction of any length, in units of that length.
 double reachAlong(const TraceBounds& bounds, const glm::dvec3& direction) {
     if (bounds.shape == TraceBoundsShape::Sphere) return bounds.radius * glm::length(direction);
@@ -50,7 +46,7 @@ bool isOutsideFrustum(const TraceView& view, const TraceBounds& bounds) {
 bool isBelowHorizon(const TraceDescription& description, const TraceView& view, const TraceBounds& bounds) {
     const double distance = glm::length(view.eye);
     if (description.shape != TraceShape::Sphere || !(distance > description.radius)) return false;
-    const double radius = boundingRadius(bounds);
+    const double radius = bounds.reach();
     const double horizon = description.radius / distance;
     if (glm::dot(bounds.centre, view.eye) / distance + radius >= description.radius * horizon) return false;
     const glm::dvec3 towards = bounds.centre - view.eye;
@@ -104,10 +100,9 @@ void TraceEngineFrame::take(const TraceState& state, const TraceFrameView& view,
     hasBefore_ = follows && view_ != nullptr;
     view_ = &view;
     described_ = described;
-    std::swap(drawn_, drawnBefore_);
     std::swap(split_, splitBefore_);
     ++stamp_;
-    for (Stamps* stamps : {&drawn_, &split_, &culled_, &drawnBefore_, &splitBefore_, &moved_})
+    for (Stamps* stamps : {&drawn_, &split_, &culled_, &splitBefore_, &moved_})
         stamps->resize(state.nodes().size(), 0);
     drawnList_.clear();
     splitList_.clear();

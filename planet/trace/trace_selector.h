@@ -46,7 +46,6 @@ public:
     bool isSplit(TraceNodeIndex node) const { return has(split_, node, stamp_); }
     bool isCulled(TraceNodeIndex node) const { return has(culled_, node, stamp_); }
     // In the frame before. False for all nodes if that is not known: it is missing or lost events.
-    bool wasDrawn(TraceNodeIndex node) const { return hasBefore_ && has(drawnBefore_, node, stamp_ - 1); }
     bool wasSplit(TraceNodeIndex node) const { return hasBefore_ && has(splitBefore_, node, stamp_ - 1); }
     bool hasBefore() const { return hasBefore_; }
     // Returns whether the children's data was there for the engine. What came or went since the frame before counts as there
@@ -71,7 +70,7 @@ private:
     std::uint64_t number_ = 0;  // of the frame that was taken
     bool hasBefore_ = false;
     bool isWhole_ = false;  // the frame that was taken lost nothing
-    Stamps drawn_, split_, culled_, drawnBefore_, splitBefore_, moved_;
+    Stamps drawn_, split_, culled_, splitBefore_, moved_;
     std::vector<TraceNodeIndex> drawnList_, splitList_, roots_;
     std::unordered_map<TraceNodeIndex, double> toldPx_;
 };

@@ -16,8 +16,7 @@ constexpr double limitSlack = 1e-4;     // share by which an engine's own errors
 
 double diameterPx(const TraceBounds& bounds, const TraceView& view) {
     if (bounds.shape == TraceBoundsShape::None) return std::numeric_limits<double>::quiet_NaN();
-    const double radius =
-        bounds.shape == TraceBoundsShape::Sphere ? bounds.radius : glm::length(bounds.halfSize);
+    const double radius = bounds.reach();
     const double distance = glm::length(bounds.centre - view.eye);
     if (!(distance > radius)) return std::numeric_limits<double>::infinity();
     // The tangent of half the angle under which a sphere is seen.

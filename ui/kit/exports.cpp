@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
 
@@ -135,13 +136,9 @@ void save(const ExportTable& table, const char* extension, std::string text) {
     exportFrame.commands->push_back(SaveExport{table.name, extension, std::move(text)});
 }
 
-std::string countOf(std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 void copy(const ExportTable& table, std::span<const std::size_t> rows, const char* what) {
     exportFrame.commands->push_back(
-        CopyText{tsvOf(table, rows, false), "Copied " + countOf(rows.size(), what)});
+        CopyText{tsvOf(table, rows, false), "Copied " + countedText(rows.size(), what)});
 }
 
 std::vector<std::size_t> allRows(const ExportTable& table) {

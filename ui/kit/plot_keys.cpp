@@ -35,16 +35,6 @@ int difference(ImGuiKey more, ImGuiKey less) {
     return static_cast<int>(wasPressed(more)) - static_cast<int>(wasPressed(less));
 }
 
-// Keys are read as characters, since + and - are elsewhere on other keyboards.
-int zoomSteps() {
-    int steps = 0;
-    for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
-        if (letter == '+' || letter == '=') ++steps;
-        if (letter == '-') --steps;
-    }
-    return steps;
-}
-
 // ImGui would move its focus by the same keys. It repeats held keys at another rate, so this asks whether they are down.
 void keepFocus(PlotReads reads) {
     constexpr std::array keys = {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_Home,
@@ -70,6 +60,16 @@ void goOnByTab() {
 }
 
 }  // namespace
+
+// Keys are read as characters, since + and - are elsewhere on other keyboards.
+int typedSteps() {
+    int steps = 0;
+    for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
+        if (letter == '+' || letter == '=') ++steps;
+        if (letter == '-') --steps;
+    }
+    return steps;
+}
 
 void plotItem(const char* id, ImVec2 size, ImGuiButtonFlags flags) {
     ImGui::PushItemFlag(ImGuiItemFlags_Inputable, true);
@@ -110,7 +110,7 @@ PlotKeys takePlotKeys(PlotReads reads) {
         keys.toLast = wasPressed(ImGuiKey_End);
         if (reads == PlotReads::View) {
             keys.up = difference(ImGuiKey_UpArrow, ImGuiKey_DownArrow);
-            keys.zoomIn = zoomSteps();
+            keys.zoomIn = typedSteps();
             zoomKeysFrame = ImGui::GetFrameCount();
         }
     }

@@ -29,6 +29,8 @@ PlotKeys takePlotKeys(PlotReads reads);
 
 // Returns true if a plot has read + and - in this frame or in the last one; they do not change the camera's speed then.
 bool plotTakesKeys();
+// Returns how often + was typed, less how often - was, since the frame before.
+int typedSteps();
 // Returns true if a plot had the focus of the keyboard in this frame or in the last one, and showed it.
 bool plotShowsFocus();
 

@@ -1,4 +1,5 @@
 #include "ui/model/fuzzy_match.h"
+#include "app/base/text.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,13 +23,9 @@ struct Letter {
     std::size_t first = 0;
 };
 
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 bool isSame(const Letter& a, const Letter& b) {
     return std::equal(a.bytes.begin(), a.bytes.end(), b.bytes.begin(), b.bytes.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
+                      [](char x, char y) { return lowerAscii(x) == lowerAscii(y); });
 }
 
 std::vector<Letter> lettersOf(std::string_view text, std::size_t most, bool withSpaces) {

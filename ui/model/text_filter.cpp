@@ -1,4 +1,5 @@
 #include "ui/model/text_filter.h"
+#include "app/base/text.h"
 
 #include <algorithm>
 
@@ -7,8 +8,7 @@ namespace worldy::ui {
 namespace {
 
 bool isSameLetter(char a, char b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return lower(a) == lower(b);
+    return lowerAscii(a) == lowerAscii(b);
 }
 
 std::size_t findPart(std::string_view text, std::string_view part, std::size_t from) {

@@ -88,11 +88,10 @@ void planetCells(const EditorView& view, const ViewSettings& settings, Cells& ce
 // Adds "1 error", or nothing if there are none.
 void addLogCell(const std::deque<LogLine>& log, LogLevel level, const char* name, const ImVec4& colour,
                 Cells& cells) {
-    const auto count =
-        std::count_if(log.begin(), log.end(), [&](const LogLine& line) { return line.level == level; });
+    const auto count = static_cast<std::uint64_t>(
+        std::count_if(log.begin(), log.end(), [&](const LogLine& line) { return line.level == level; }));
     if (count == 0) return;
-    cells.add(fmt::format("{} {}{}", count, name, count == 1 ? "" : "s"),
-              withKey("See the Log panel.", "panel_log").c_str(), colour);
+    cells.add(countedText(count, name), withKey("See the Log panel.", "panel_log").c_str(), colour);
     noteItem(name);
 }
 

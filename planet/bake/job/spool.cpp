@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -38,13 +37,6 @@ void putSum(std::vector<std::byte>& bytes) {
 bool endsInSum(std::span<const std::byte> bytes) {
     const auto content = bytes.first(bytes.size() - sizeof(std::uint64_t));
     return readLittleEndian<std::uint64_t>(bytes.data() + content.size()) == sumOf(content);
-}
-
-Result<std::uint64_t> sizeOf(const OpenFile& file) {
-    struct stat status {};
-    if (uninterrupted([&] { return file.calls().fstat(file.descriptor(), &status); }) != 0)
-        return ioError(fmt::format("{}: cannot be read: {}", file.name(), lastSystemError()));
-    return static_cast<std::uint64_t>(status.st_size);
 }
 
 std::optional<std::uint32_t> numberOf(const std::filesystem::path& file) {
@@ -143,7 +135,7 @@ Result<SpoolReader> SpoolReader::open(const std::filesystem::path& folder, std::
                                       std::uint64_t job, const FileCalls& calls) {
     TRY_ASSIGN(auto file, OpenFile::open(spoolFile(folder, number), O_RDONLY, calls));
     SpoolReader reader(std::move(file), number);
-    TRY_ASSIGN(const auto size, sizeOf(reader.file_));
+    TRY_ASSIGN(const auto size, reader.file_.size());
     // A job that was killed while it made the file has left nothing in it.
     if (size < spoolHeaderBytes) return reader;
     std::vector<std::byte> header(spoolHeaderBytes);
@@ -168,7 +160,7 @@ Result<SpoolReader> SpoolReader::open(const std::filesystem::path& folder, std::
 }
 
 Result<std::vector<SpoolEntry>> SpoolReader::entries() const {
-    TRY_ASSIGN(const auto size, sizeOf(file_));
+    TRY_ASSIGN(const auto size, file_.size());
     std::vector<SpoolEntry> entries;
     std::uint64_t at = spoolHeaderBytes;
     std::vector<std::byte> record(spoolRecordBytes);

@@ -7,15 +7,12 @@
 #include <numbers>
 #include <random>
 
+#include "planet/tree/sphere_polygon.h"
 #include "tests/support/fake_pyramid.h"
 #include "tests/support/random_view.h"
 
 namespace planet {
 namespace {
-
-double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
 
 // Chunks of all levels and faces: corners and middles of faces, and others at random.
 std::vector<ChunkId> manyChunks(std::mt19937& random) {
@@ -54,7 +51,7 @@ TEST(Bounds, HoldEveryPointOfTheChunkAtEveryHeight) {
                 for (const double height : {lowM, 0.0, highM}) {
                     farthestM = std::max(farthestM, distanceM(bounds.box, (radiusM + height) * direction));
                 }
-                widestRad = std::max(widestRad, angleBetween(bounds.cone.axis, direction));
+                widestRad = std::max(widestRad, angleBetweenRad(bounds.cone.axis, direction));
             }
         }
         EXPECT_EQ(farthestM, 0) << toString(id);
@@ -79,7 +76,7 @@ TEST(Bounds, AreTight) {
             for (int i = 0; i <= dense; ++i) {
                 const glm::dvec3 direction = sphereFromCube(cubePoint(
                     id.face, square.u + square.side * i / dense, square.v + square.side * j / dense));
-                widestRad = std::max(widestRad, angleBetween(bounds.cone.axis, direction));
+                widestRad = std::max(widestRad, angleBetweenRad(bounds.cone.axis, direction));
                 for (int a = 0; a < 3; ++a) {
                     const double along = radiusM * glm::dot(direction, bounds.box.axes[std::size_t(a)]);
                     low[a] = std::min(low[a], along);

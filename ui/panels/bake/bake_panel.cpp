@@ -136,13 +136,6 @@ void openFileSection(const EditorView& view, const ViewSettings& settings) {
                                 {"set", [](const Parameter& row) { return row.live ? "live" : "baked"; }}}));
 }
 
-// Draws a label, lit if the value differs from the open file's.
-void bakeControl(const char* label, bool changed, const char* explanation) {
-    if (changed) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
-    labelledControl(label, explanation);
-    if (changed) ImGui::PopStyleColor();
-}
-
 bool chunkSizeControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
         "Vertices along a side of a chunk. Larger: fewer draw calls and nodes and better compression, but "
@@ -150,7 +143,7 @@ bool chunkSizeControl(const BakeRequest& current, BakeRequest& request) {
     int index = static_cast<int>(
         std::find(planet::chunkSizes.begin(), planet::chunkSizes.end(), request.settings.chunkSize) -
         planet::chunkSizes.begin());
-    bakeControl("Chunk size", request.settings.chunkSize != current.settings.chunkSize, explanation);
+    litLabel("Chunk size", request.settings.chunkSize != current.settings.chunkSize, explanation);
     const bool changed =
         combo("Chunk size", index, "17 vertices\00033 vertices\00065 vertices\000129 vertices\0");
     tooltip(explanation);
@@ -164,7 +157,7 @@ bool faceSizeControl(const BakeRequest& current, BakeRequest& request) {
         "detail of the source. Smaller: less detail. Larger: a bigger file without more detail.";
     const std::optional<int> size = request.settings.faceSize;
     const auto text = [](int samples) { return fmt::format("{} samples", samples); };
-    bakeControl("Face size", size != current.settings.faceSize, explanation);
+    litLabel("Face size", size != current.settings.faceSize, explanation);
     bool changed = false;
     const bool open = ImGui::BeginCombo("##face", size ? text(*size).c_str() : "natural");
     if (!open) noteItem("Face size");
@@ -191,7 +184,7 @@ bool radiusControl(const BakeRequest& current, BakeRequest& request) {
     constexpr const char* explanation =
         "Radius of the sphere that heights are measured from, in kilometres: Earth 6371, Mars 3389.5, Moon "
         "1737.4. With a wrong radius, mountains look too steep or too flat.";
-    bakeControl("Radius", request.settings.radiusM != current.settings.radiusM, explanation);
+    litLabel("Radius", request.settings.radiusM != current.settings.radiusM, explanation);
     double radiusKm = request.settings.radiusM / 1000;
     const bool changed = numberField("##radius", radiusKm, "%.3f km");
     tooltip(explanation);
@@ -217,7 +210,7 @@ bool quantumControl(const BakeRequest& current, BakeRequest& request) {
         "or for floating-point sources the smallest step that covers the range. Larger: a smaller file, but "
         "terraces on flat ground. Too small: the heights do not fit, and the bake stops with an error.";
     std::optional<double>& quantum = request.settings.quantumM;
-    bakeControl("Quantum", quantum != current.settings.quantumM, explanation);
+    litLabel("Quantum", quantum != current.settings.quantumM, explanation);
     bool automatic = !quantum;
     const bool changed = ImGui::Checkbox("automatic", &automatic);
     tooltip(explanation);
@@ -236,7 +229,7 @@ bool finestQuantumControl(const BakeRequest& current, BakeRequest& request) {
         "bytes "
         "there.";
     std::optional<double>& finest = request.settings.finestQuantumM;
-    bakeControl("Finest quantum", finest != current.settings.finestQuantumM, explanation);
+    litLabel("Finest quantum", finest != current.settings.finestQuantumM, explanation);
     bool automatic = !finest;
     const bool changed = ImGui::Checkbox("automatic##finest", &automatic);
     tooltip(explanation);

@@ -72,14 +72,10 @@ std::string effectText(const Region& region) {
     return parts.empty() ? "no effect" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string counted(std::size_t count, const char* one) {
-    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
-}
-
 std::string placeText(const Region& region) {
     std::vector<std::string> parts;
-    if (!region.circles.empty()) parts.push_back(counted(region.circles.size(), "circle"));
-    if (!region.polygons.empty()) parts.push_back(counted(region.polygons.size(), "polygon"));
+    if (!region.circles.empty()) parts.push_back(countedText(region.circles.size(), "circle"));
+    if (!region.polygons.empty()) parts.push_back(countedText(region.polygons.size(), "polygon"));
     if (region.heights) {
         parts.push_back(fmt::format("{} to {}", distanceText(region.heights->lowestM),
                                     distanceText(region.heights->highestM)));
@@ -274,8 +270,8 @@ void polygonControls(Region& region, RegionsPanelState& state) {
     state.polygon = std::min(state.polygon, last);
     if (last > 0) {
         int number = static_cast<int>(state.polygon) + 1;
-        const std::string format =
-            fmt::format("%d of {}, {}", last + 1, counted(region.polygons[state.polygon].size(), "corner"));
+        const std::string format = fmt::format("%d of {}, {}", last + 1,
+                                               countedText(region.polygons[state.polygon].size(), "corner"));
         slider("Polygon", number, 1, 1, static_cast<int>(last) + 1, format.c_str(),
                "The polygon that the button below removes. Its corners are in the file.");
         state.polygon = static_cast<std::size_t>(std::clamp(number, 1, static_cast<int>(last) + 1) - 1);
@@ -306,7 +302,7 @@ void heightControls(Region& region) {
 void cornerControls(Region& region, RegionsPanelState& state) {
     planet::RegionPolygon& corners = state.corners;
     wrappedText(corners.empty() ? "Click on the globe to set the first corner."
-                                : counted(corners.size(), "corner") + "; click on the globe to add more.",
+                                : countedText(corners.size(), "corner") + "; click on the globe to add more.",
                 palette().dim);
     beginGrey(corners.size() < 3, "A polygon has at least three corners.");
     if (button("Close polygon", "Adds the polygon to the region. Its edges must not cross.")) {

@@ -255,10 +255,7 @@ void layerFacts(const EditorView& view, const planet::SourceLayer& layer) {
     valueRow("Voids", voidsText(layer), "Share of the samples without a height.");
     valueRow("Spacing", spacingText(layer, view.planet->tree().shape.radiusM),
              "Distance between the finest samples, at the planet's radius.");
-    valueRow("Covers",
-             layer.coversPlanet
-                 ? std::string("the planet")
-                 : fmt::format("{} area{}", layer.outlines.size(), layer.outlines.size() == 1 ? "" : "s"),
+    valueRow("Covers", layer.coversPlanet ? "the planet" : countedText(layer.outlines.size(), "area"),
              "Whether the layer covers the planet, or how many outlines it has.");
     endValues();
 }

@@ -24,11 +24,6 @@ namespace {
 
 constexpr float runApartFrom = 68;  // heights of the font
 
-// Returns "1 flight" or "2 flights".
-std::string countOf(std::size_t count, const char* of) {
-    return fmt::format("{} {}{}", count, of, count == 1 ? "" : "s");
-}
-
 // The request.
 
 using Flights = std::vector<std::filesystem::path>;
@@ -205,8 +200,8 @@ void runControl(const EditorView& view, const SweepRequest& request, const TauLi
     endGrey();
     ImGui::SameLine();
     const std::size_t flights = request.tausPx.size() * request.chunkSizes.size() * request.metrics.size();
-    wrappedText(problem.empty() ? fmt::format("{} of {}", countOf(flights, "flight"),
-                                              countOf(static_cast<std::size_t>(request.frames), "frame"))
+    wrappedText(problem.empty() ? fmt::format("{} of {}", countedText(flights, "flight"),
+                                              countedText(static_cast<std::size_t>(request.frames), "frame"))
                                 : problem,
                 palette().dim);
 }
@@ -314,8 +309,8 @@ void tableCaption(const SweepTable& table, const EditorView& view) {
     const std::string state = table.whole ? "" : view.sweep.running ? ", so far" : ", incomplete";
     wrappedText(fmt::format("{}, {}, {} x {} px, {}: {}{}", table.flight, table.source.filename().string(),
                             table.request.widthPx, table.request.heightPx,
-                            countOf(static_cast<std::size_t>(table.request.frames), "frame"),
-                            countOf(table.points.size(), "point"), state),
+                            countedText(static_cast<std::size_t>(table.request.frames), "frame"),
+                            countedText(table.points.size(), "point"), state),
                 table.whole || view.sweep.running ? palette().dim : palette().warning);
 }
 

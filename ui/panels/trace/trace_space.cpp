@@ -31,14 +31,9 @@ bool isGlobe(const TracedFrame& frame) {
     return frame.description && frame.description->shape == planet::TraceShape::Sphere;
 }
 
-double reachOf(const TraceBounds& bounds) {
-    return bounds.shape == TraceBoundsShape::Sphere ? bounds.radius : glm::length(bounds.halfSize);
-}
-
 bool hasBounds(const TracedNode& node) {
     const TraceBounds& bounds = node.node.bounds;
-    return bounds.shape != TraceBoundsShape::None && isFinite(bounds.centre) &&
-           std::isfinite(reachOf(bounds));
+    return bounds.shape != TraceBoundsShape::None && isFinite(bounds.centre) && std::isfinite(bounds.reach());
 }
 
 // Two directions of the ground, at right angles to up and to each other.
@@ -133,8 +128,8 @@ SpaceCamera cameraAround(const TracedFrame& frame, const TracedView& view) {
     for (const TracedNode& node : view.nodes) {
         if (node.place != TracedPlace::Drawn || !hasBounds(node)) continue;
         const TraceBounds& bounds = node.node.bounds;
-        low = glm::min(low, bounds.centre - reachOf(bounds));
-        high = glm::max(high, bounds.centre + reachOf(bounds));
+        low = glm::min(low, bounds.centre - bounds.reach());
+        high = glm::max(high, bounds.centre + bounds.reach());
         if (bounds.shape == TraceBoundsShape::Box) boxes += bounds.axes[2];
         isAny = true;
     }
