@@ -15,6 +15,7 @@
 #include "planet/planet.h"
 #include "planet/planet_tools.h"
 #include "tests/support/faulty_files.h"
+#include "tests/support/planet_fixture.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/sudden_lod.h"
 #include "tests/support/synthetic_colours.h"
@@ -86,13 +87,6 @@ protected:
         double faces = 0;
         for (const DrawItem& item : planet.selection().draw) faces += std::ldexp(1.0, -2 * item.id.level);
         EXPECT_EQ(faces, 6);
-    }
-
-    static std::vector<ChunkId> drawn(const Planet& planet) {
-        std::vector<ChunkId> ids;
-        for (const DrawItem& item : planet.selection().draw) ids.push_back(item.id);
-        std::sort(ids.begin(), ids.end());
-        return ids;
     }
 
     // Flies some frames and settles; what is drawn then.

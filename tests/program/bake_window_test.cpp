@@ -9,20 +9,14 @@
 namespace worldy {
 namespace {
 
-class BakeWindowTest : public testing::Test {
+class BakeWindowTest : public WindowFixture {
 protected:
-    void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    }
-
     std::vector<std::filesystem::path> bakes() const {
         std::vector<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "cache" / "worldy"))
             files.push_back(entry.path());
         return files;
     }
-
-    const TemporaryFolder folder;
 };
 
 TEST_F(BakeWindowTest, ABakeFromThePanelTakesThePlanetsPlaceAndACancelledOneChangesNothing) {
@@ -65,8 +59,7 @@ mv hills.pgm gone.pgm; click bake/Bake; expect says 'hills.pgm: no such source'
 [ "$(counter file)" = "$third" ] || echo "a bake without a source leaves $(counter file)"
 counts drawn -gt 0 || echo "a bake without a source leaves nothing"
 )sh");
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     // The first at the start and two more: neither the cancelled one nor half a file.
     EXPECT_EQ(bakes().size(), 3u);
     const Ran told = runWorldy(folder, "info second.chk --json");
@@ -131,8 +124,7 @@ says 'red.ppm: ' && echo "the dropped image was opened as heights"
 choose bake/Colours none; click bake/Bake; expect counts colour_tiles -eq 0; settle
 )sh",
                                 {"800x690"});
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     const Ran told = runWorldy(folder, "info coloured.chk --json");
     ASSERT_EQ(told.exitCode, 0) << told.errors;
     EXPECT_NE(told.output.find("map.ppm"), std::string::npos) << told.output;
@@ -165,8 +157,7 @@ key ctrl+o; frames; xdotool type --delay 20 "$PWD/other.chk"; frames; key Return
 key ctrl+o; expect shown open/Path; key Escape; expect hidden open/Path
 key F10; expect shown "help/Keys and mouse"; shot keys.png; key Escape; expect hidden "help/Keys and mouse"
 )sh");
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
 }
 
 }  // namespace

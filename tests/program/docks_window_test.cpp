@@ -27,21 +27,13 @@ is_left_of() { [ $(top "$1") -eq $(top "$2") ] && [ $(left "$1") -lt $(left "$2"
 layout() { click menu/View && click menu/Layout && click "layout/$1"; }
 )sh";
 
-class DocksWindowTest : public testing::Test {
+class DocksWindowTest : public PlanetWindowFixture {
 protected:
-    void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-        bakePlanet(folder);
-    }
-
     // Steps print what is wrong.
     void drive(const std::string& steps, const Screen& screen = {}) {
         const Ran ran = runInWindow(folder, "planet.chk", dockFunctions + steps, screen);
-        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-        EXPECT_EQ(ran.output, "") << ran.errors;
+        expectQuiet(ran);
     }
-
-    const TemporaryFolder folder;
 };
 
 TEST_F(DocksWindowTest, aDoubleClickOnATabMaximisesItsDockAndBack) {

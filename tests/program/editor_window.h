@@ -2,7 +2,7 @@
 // by their names, click, slide, look and count.
 #pragma once
 
-#include "tests/program/run_program.h"
+#include "tests/program/small_planet.h"
 
 namespace worldy {
 
@@ -144,5 +144,24 @@ inline void writeWindowSettings(const TemporaryFolder& folder, const std::string
 inline std::string settingsOf(const TemporaryFolder& folder) {
     return contentOf(folder.path() / "config" / "worldy" / "settings.toml");
 }
+
+// The base of tests that open the window.
+class WindowFixture : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
+    }
+
+    const TemporaryFolder folder;
+};
+
+// Has hills.pgm and planet.chk in its folder.
+class PlanetWindowFixture : public WindowFixture {
+protected:
+    void SetUp() override {
+        WindowFixture::SetUp();
+        if (!IsSkipped()) bakePlanet(folder);
+    }
+};
 
 }  // namespace worldy

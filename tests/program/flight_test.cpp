@@ -15,19 +15,18 @@ namespace {
 
 using testing::HasSubstr;
 
-class FlightTest : public testing::Test {
+class FlightTest : public PlanetWindowFixture {
 protected:
     void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-        bakePlanet(folder);
+        PlanetWindowFixture::SetUp();
+        if (IsSkipped()) return;
         writeWindowSettings(folder,
                             "[window]\nbottom_height = 400\n[panels]\nflight_shown = true\n"
                             "bottom_front = \"flight\"\n[lod]\ntau_px = 1\n");
     }
     Ran drive(const std::string& steps) {
         Ran ran = runInWindow(folder, "planet.chk", steps);
-        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-        EXPECT_EQ(ran.output, "") << ran.errors;
+        expectQuiet(ran);
         return ran;
     }
 
@@ -41,8 +40,6 @@ protected:
         }
         EXPECT_TRUE(encoder.write(folder / to, record.name, record.data));
     }
-
-    const TemporaryFolder folder;
 };
 
 // By the clock, with threads; then by simulated time over a bad disk.

@@ -8,13 +8,8 @@
 namespace worldy {
 namespace {
 
-class InspectionWindowTest : public testing::Test {
+class InspectionWindowTest : public PlanetWindowFixture {
 protected:
-    void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-        bakePlanet(folder);
-    }
-
     void drive(const std::string& steps) {
         const std::string functions = R"sh(
 # But for what each frame rounds.
@@ -34,11 +29,8 @@ go_back() {
 }
 )sh";
         const Ran ran = runInWindow(folder, "planet.chk", functions + steps, usualScreen);
-        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-        EXPECT_EQ(ran.output, "") << ran.errors;
+        expectQuiet(ran);
     }
-
-    const TemporaryFolder folder;
 };
 
 TEST_F(InspectionWindowTest, goToACrackFreezesLodAndBackUnfreezesIt) {

@@ -10,10 +10,9 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(KeyboardWindowTest, thePaletteFindsAndDoes) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+using KeyboardWindowTest = PlanetWindowFixture;
+
+TEST_F(KeyboardWindowTest, thePaletteFindsAndDoes) {
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
 seek() { key ctrl+k; expect shown palette/Query; xdotool type --delay 20 -- "$1"; frames 4; }
 seek frl; expect shown "palette/Freeze LOD"; key Return
@@ -37,18 +36,14 @@ seek z_pos/1/0/1; key Return; expect hidden palette/Query
 seek x; xdotool mousemove $(at viewport/picture 0.5 0.9) click 1; frames 4; expect hidden palette/Query
 )sh",
                                 usualScreen);
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     const std::string settings = settingsOf(folder);
     EXPECT_THAT(settings, HasSubstr("tau_px = 7.5"));
     EXPECT_THAT(settings, HasSubstr("hysteresis = 0.1")) << "the last change is undone";
     EXPECT_THAT(settings, HasSubstr("bounds = true"));
 }
 
-TEST(KeyboardWindowTest, theFocusReachesPanelsTabsAndFilters) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+TEST_F(KeyboardWindowTest, theFocusReachesPanelsTabsAndFilters) {
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
 # The viewport has the focus at first: arrows and Space do nothing there, the letters fly.
 start=$(counter camera)
@@ -68,15 +63,11 @@ seek "lod.tau"; key Return; xdotool type --delay 20 9; frames; key Return
 key shift+F10; expect shown palette/reset; key Down; key Return; frames; key Escape; key Escape; key Escape
 )sh",
                                 usualScreen);
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     EXPECT_THAT(settingsOf(folder), HasSubstr("tau_px = 2"));
 }
 
-TEST(KeyboardWindowTest, keysAreChangedByAFile) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+TEST_F(KeyboardWindowTest, keysAreChangedByAFile) {
     const std::filesystem::path file = folder.path() / "config" / "worldy" / "keys.toml";
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file) << "freeze_lod = \"Ctrl+E\"\nwirefram = \"F2\"\n";
@@ -93,8 +84,7 @@ rm config/worldy/keys.toml
 key ctrl+k; xdotool type --delay 20 'write key'; frames 4; key Return; frames 4
 )sh",
                                 usualScreen);
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     EXPECT_THAT(contentOf(file), HasSubstr("# freeze_lod = \"F2\"\n"));
 }
 

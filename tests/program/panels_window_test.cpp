@@ -15,22 +15,14 @@ namespace {
 
 using testing::HasSubstr;
 
-class PanelsWindowTest : public testing::Test {
+class PanelsWindowTest : public PlanetWindowFixture {
 protected:
-    void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-        bakePlanet(folder);
-    }
-
     // Steps print what is wrong.
     Ran drive(const std::string& steps, const Screen& screen = {}) {
         Ran ran = runInWindow(folder, "planet.chk", steps, screen);
-        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-        EXPECT_EQ(ran.output, "") << ran.errors;
+        expectQuiet(ran);
         return ran;
     }
-
-    const TemporaryFolder folder;
 };
 
 TEST_F(PanelsWindowTest, EveryPanelOpensAndHidesByItsKeyAndFromTheViewMenu) {
@@ -344,8 +336,7 @@ reach sweep/Suggest "sweep/Apply: additive"
 click "sweep/Apply: additive"; expect counts triangles -lt $fine
 )sh",
                                 {"1000x625"});
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     std::size_t tables = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
         if (entry.path().extension() != ".csv") continue;
@@ -372,8 +363,7 @@ expect counts triangles -gt $coarse
 key ctrl+z; click "atlas/Tint planet"; frames
 )sh",
                                 {"1400x900"});
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     std::filesystem::path atlas;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
         if (entry.path().extension() == ".atlas") atlas = entry.path().filename();

@@ -7,10 +7,9 @@
 namespace worldy {
 namespace {
 
-TEST(RulerWindowTest, twoClicksMeasureTheGroundAndNoChunkIsSelected) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+using RulerWindowTest = PlanetWindowFixture;
+
+TEST_F(RulerWindowTest, twoClicksMeasureTheGroundAndNoChunkIsSelected) {
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
 selected() { [ "$(counter selected)" = "$1" ]; }
 key ctrl+shift+r; expect shown "ruler/Click places"
@@ -24,8 +23,7 @@ click ruler/Clear; expect hidden ruler/Profile; expect differs "$measured"
 click "ruler/Click places"; click viewport/picture 0.5 0.5; ! selected none || echo "a click selects nothing"
 )sh",
                                 usualScreen);
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Runs the worldy binary in a folder of its own, and keeps what it said.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
+
 #include <filesystem>
 #include <string>
 
@@ -33,6 +35,12 @@ inline Ran runShell(const TemporaryFolder& folder, const std::string& command) {
 
 inline Ran runWorldy(const TemporaryFolder& folder, const std::string& arguments) {
     return runShell(folder, "'" WORLDY_BINARY "' " + arguments);
+}
+
+// Expects that a program or steps printed nothing and ended without an error.
+inline void expectQuiet(const Ran& ran) {
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
 }
 
 // "long.toml": a flight of a million seconds, for what must be refused as too many steps.

@@ -11,20 +11,13 @@ namespace {
 
 using testing::HasSubstr;
 
-class SessionWindowTest : public testing::Test {
+class SessionWindowTest : public PlanetWindowFixture {
 protected:
-    void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-        bakePlanet(folder);
-    }
     Ran drive(const std::string& arguments, const std::string& steps) {
         Ran ran = runInWindow(folder, arguments, steps);
-        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-        EXPECT_EQ(ran.output, "") << ran.errors;
+        expectQuiet(ran);
         return ran;
     }
-
-    const TemporaryFolder folder;
 };
 
 TEST_F(SessionWindowTest, aStartWithoutAFileShowsTheLastPlanetFromTheLastCamera) {

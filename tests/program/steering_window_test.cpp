@@ -7,11 +7,10 @@
 namespace worldy {
 namespace {
 
+using SteeringWindowTest = PlanetWindowFixture;
+
 // A device of the test's own stands in for GLFW's.
-TEST(SteeringWindowTest, aGamepadThatComesWhileItRunsFliesAndPressesButtons) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+TEST_F(SteeringWindowTest, aGamepadThatComesWhileItRunsFliesAndPressesButtons) {
     writeWindowSettings(folder, "[panels]\nright_front = \"camera\"\n");
     const Ran ran = runOnDisplay(
         folder, R"sh(
@@ -36,14 +35,10 @@ rm pad.txt; frames; pad joystick SpaceNavigator 0 0 1 0 0 0 0; expect moved "$st
 rm pad.txt; frames; still=$(counter camera); frames 6; moved "$still" && echo 'a device that went still steers'
 xdotool key --clearmodifiers ctrl+q; wait $worldy
 )sh");
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
 }
 
-TEST(SteeringWindowTest, theWheelAltAndKeysSteerAndPlacesAreGlidedTo) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+TEST_F(SteeringWindowTest, theWheelAltAndKeysSteerAndPlacesAreGlidedTo) {
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
 moved() { [ "$(counter camera)" != "$1" ]; }
 is_at() { [ "$(counter camera)" = "$1" ]; }
@@ -61,8 +56,7 @@ expect is_at "$start"
 point viewport/picture 0.7 0.4; key f; expect moved "$start"
 key F3; expect is_at "$start"
 )sh");
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
 }
 
 }  // namespace

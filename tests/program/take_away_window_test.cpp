@@ -14,11 +14,11 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class TakeAwayWindowTest : public testing::Test {
+class TakeAwayWindowTest : public PlanetWindowFixture {
 protected:
     void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-        bakePlanet(folder);
+        PlanetWindowFixture::SetUp();
+        if (IsSkipped()) return;
         std::filesystem::create_directories(saved());
         setenv("XDG_PICTURES_DIR", saved().c_str(), 1);
     }
@@ -26,8 +26,7 @@ protected:
 
     void drive(const std::string& steps) {
         const Ran ran = runInWindow(folder, "planet.chk", steps, usualScreen);
-        EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-        EXPECT_EQ(ran.output, "") << ran.errors;
+        expectQuiet(ran);
     }
     std::filesystem::path saved() const { return folder.path() / "saved"; }
     // Returns the file or folder whose name ends so; empty if there is none.
@@ -36,8 +35,6 @@ protected:
             if (entry.path().filename().string().ends_with(ending)) return entry.path();
         return {};
     }
-
-    const TemporaryFolder folder;
 };
 
 TEST_F(TakeAwayWindowTest, ATableAndAPlotAreSavedBesideTheScreenshots) {

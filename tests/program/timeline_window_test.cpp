@@ -19,10 +19,9 @@ std::filesystem::path savedTrace(const TemporaryFolder& folder) {
     return {};
 }
 
-TEST(TimelineWindowTest, framesOfAFlightAreRecordedWithTheirChunksAndSaved) {
-    if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    const TemporaryFolder folder;
-    bakePlanet(folder);
+using TimelineWindowTest = PlanetWindowFixture;
+
+TEST_F(TimelineWindowTest, framesOfAFlightAreRecordedWithTheirChunksAndSaved) {
     setenv("XDG_PICTURES_DIR", folder.path().c_str(), 1);
     const Ran ran = runInWindow(folder, "planet.chk", R"sh(
 key ctrl+shift+t; expect shown timeline/Lanes
@@ -32,8 +31,7 @@ click "timeline/Save Chrome trace"; expect says Saved:
 )sh",
                                 usualScreen);
     unsetenv("XDG_PICTURES_DIR");
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
     const std::filesystem::path file = savedTrace(folder);
     ASSERT_FALSE(file.empty()) << ran.errors;
     const auto json = nlohmann::json::parse(contentOf(file));

@@ -15,14 +15,13 @@
 namespace worldy {
 namespace {
 
-class TraceWindow : public testing::Test {
+class TraceWindow : public PlanetWindowFixture {
 protected:
     void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-        bakePlanet(folder);
+        PlanetWindowFixture::SetUp();
+        if (IsSkipped()) return;
         writeWindowSettings(folder, "data.set = \"planet.chk\"\n");
     }
-    const TemporaryFolder folder;
 };
 
 TEST_F(TraceWindow, AFileIsExaminedAndClosed) {

@@ -12,14 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class WindowTest : public testing::Test {
-protected:
-    void SetUp() override {
-        if (!canOpenWindows()) GTEST_SKIP() << "needs Xvfb, xdotool and ImageMagick";
-    }
-
-    const TemporaryFolder folder;
-};
+using WindowTest = WindowFixture;
 
 TEST_F(WindowTest, ShowsThePlanetAndQuitsOnCtrlQ) {
     bakePlanet(folder);
@@ -140,8 +133,7 @@ expect shown message/Text; key Return; expect hidden message/Text
 frames; same "$plain" || echo "the picture is another one"
 sed -i '$d' glsl/chunk.frag; expect says 'Shaders of glsl reloaded'
 )sh");
-    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
-    EXPECT_EQ(ran.output, "") << ran.errors;
+    expectQuiet(ran);
 }
 
 TEST_F(WindowTest, ASmallWindowShowsAllDocksAndAViewport) {

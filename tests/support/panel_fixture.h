@@ -81,6 +81,15 @@ public:
         }
     }
 
+    // Points at an item and returns whether its tooltip says why it is grey.
+    bool saysWhy(std::string_view name, const std::function<void()>& drawFrame) const {
+        drawFrame();
+        const ItemPlace item = *find(name);
+        movePointer({item.rect.x + 2, item.rect.y + 2});
+        for (int i = 0; i < 3; ++i) drawFrame();
+        return isShown("Why grey");
+    }
+
 private:
     std::vector<ItemPlace> items_;
 };

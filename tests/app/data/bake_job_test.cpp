@@ -7,6 +7,7 @@
 
 #include "planet/format/chunk_file.h"
 #include "tests/support/grey_faces.h"
+#include "tests/support/job_result.h"
 #include "tests/support/temporary_folder.h"
 
 namespace worldy {
@@ -25,19 +26,12 @@ fs::path writeImage(const TemporaryFolder& folder) {
     return file;
 }
 
-planet::Result<planet::BakeReport> waitFor(BakeJob& job) {
-    for (;;) {
-        if (auto result = job.takeResult()) return *result;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-}
-
 TEST(BakeJob, LeavesAChunkFileAndReportsOnce) {
     const TemporaryFolder folder;
     BakeJob job({.source = writeImage(folder),
                  .settings = {.faceSize = 65, .chunkSize = 17},
                  .output = folder.path() / "slope.chk"});
-    const planet::Result<planet::BakeReport> report = waitFor(job);
+    const planet::Result<planet::BakeReport> report = tests::resultOf(job);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_TRUE(planet::ChunkFile::open(folder.path() / "slope.chk"));
     EXPECT_EQ(job.progress().bake.samplesDone, job.progress().bake.samplesTotal);
@@ -51,7 +45,7 @@ TEST(BakeJob, CancelledEndsWithoutAFile) {
                  .output = folder.path() / "slope.chk"});
     job.cancel();
     EXPECT_TRUE(job.cancelling());
-    const planet::Result<planet::BakeReport> report = waitFor(job);
+    const planet::Result<planet::BakeReport> report = tests::resultOf(job);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().kind, planet::ErrorKind::Cancelled);
     EXPECT_EQ(fileCountIn(folder.path()), 1u);
@@ -88,14 +82,14 @@ TEST(BakeJob, FirstLookIsThereBeforeTheWholeBake) {
     EXPECT_EQ(planet::faceCells(first->info().shape), 64);
     EXPECT_FALSE(job.takeFirstLook());
     job.cancel();
-    EXPECT_FALSE(waitFor(job));
+    EXPECT_FALSE(tests::resultOf(job));
     EXPECT_FALSE(fs::exists(folder.path() / "slope.chk"));
 }
 
 TEST(BakeJob, SmallFacesHaveNoFirstLook) {
     const TemporaryFolder folder;
     BakeJob job(withFirstLook(folder, 129));
-    EXPECT_TRUE(waitFor(job));
+    EXPECT_TRUE(tests::resultOf(job));
     EXPECT_FALSE(job.takeFirstLook());
     EXPECT_FALSE(fs::exists(folder.path() / "first.chk"));
 }
@@ -109,7 +103,7 @@ TEST(BakeJob, SourceThatIsOpenIsNotReadAgain) {
                  .settings = {.faceSize = 65, .chunkSize = 17},
                  .output = folder.path() / "slope.chk",
                  .opened = *heights});
-    EXPECT_TRUE(waitFor(job));
+    EXPECT_TRUE(tests::resultOf(job));
 }
 
 void writeColourImage(const fs::path& file) {
@@ -125,7 +119,7 @@ TEST(BakeJob, ReportsFacesOfColoursThatDifferAlongTheirEdges) {
                  .settings = {.faceSize = 65, .chunkSize = 17},
                  .output = folder.path() / "slope.chk",
                  .colour = {folder.path() / "grey", true}});
-    const planet::Result<planet::BakeReport> report = waitFor(job);
+    const planet::Result<planet::BakeReport> report = tests::resultOf(job);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_TRUE(report->colourNotice.starts_with("grey: the colours of faces ")) << report->colourNotice;
     EXPECT_EQ(job.colourProblem(), "");
@@ -138,7 +132,7 @@ TEST(BakeJob, LeavesAChunkFileWithColours) {
                  .settings = {.faceSize = 65, .chunkSize = 17},
                  .output = folder.path() / "slope.chk",
                  .colour = {folder.path() / "map.ppm"}});
-    const planet::Result<planet::BakeReport> report = waitFor(job);
+    const planet::Result<planet::BakeReport> report = tests::resultOf(job);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(report->colourTiles, 6u);
     EXPECT_EQ(job.colourProblem(), "");
@@ -163,7 +157,7 @@ TEST(BakeJob, AnImageThatMustBeThereIsAnErrorAndOneThatMayFailIsToldAndLeftOut) 
                         .settings = {.faceSize = 65, .chunkSize = 17},
                         .output = output,
                         .colour = {image}});
-        const planet::Result<planet::BakeReport> refused = waitFor(strict);
+        const planet::Result<planet::BakeReport> refused = tests::resultOf(strict);
         ASSERT_FALSE(refused);
         EXPECT_NE(refused.error().message.find(image.string()), std::string::npos) << refused.error().message;
         EXPECT_EQ(fileCountIn(folder.path()), 3u);
@@ -171,7 +165,7 @@ TEST(BakeJob, AnImageThatMustBeThereIsAnErrorAndOneThatMayFailIsToldAndLeftOut) 
                          .settings = {.faceSize = 65, .chunkSize = 17},
                          .output = output,
                          .colour = {image, true}});
-        const planet::Result<planet::BakeReport> baked = waitFor(lenient);
+        const planet::Result<planet::BakeReport> baked = tests::resultOf(lenient);
         ASSERT_TRUE(baked) << baked.error().message;
         EXPECT_EQ(baked->colourTiles, 0u);
         EXPECT_NE(lenient.colourProblem().find(image.string()), std::string::npos);
@@ -182,7 +176,7 @@ TEST(BakeJob, AnImageThatMustBeThereIsAnErrorAndOneThatMayFailIsToldAndLeftOut) 
                  .settings = {.faceSize = 66, .chunkSize = 17},
                  .output = output,
                  .colour = {broken, true}});
-    ASSERT_FALSE(waitFor(bad));
+    ASSERT_FALSE(tests::resultOf(bad));
     EXPECT_EQ(bad.colourProblem(), "");
 }
 
@@ -198,7 +192,7 @@ TEST(BakeJob, CancelledAmongColoursItEndsWithoutAFile) {
         ASSERT_FALSE(job.takeResult());
     }
     job.cancel();
-    const planet::Result<planet::BakeReport> report = waitFor(job);
+    const planet::Result<planet::BakeReport> report = tests::resultOf(job);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().kind, planet::ErrorKind::Cancelled);
     EXPECT_EQ(fileCountIn(folder.path()), 2u);
@@ -207,7 +201,7 @@ TEST(BakeJob, CancelledAmongColoursItEndsWithoutAFile) {
 TEST(BakeJob, ABadSourceIsAnError) {
     const TemporaryFolder folder;
     BakeJob job({.source = "/nonexistent/slope.tif", .output = folder.path() / "slope.chk"});
-    const planet::Result<planet::BakeReport> report = waitFor(job);
+    const planet::Result<planet::BakeReport> report = tests::resultOf(job);
     ASSERT_FALSE(report);
     EXPECT_NE(report.error().message.find("/nonexistent/slope.tif"), std::string::npos);
 }

@@ -8,6 +8,7 @@
 #include "app/measure/comparison_job.h"
 #include "app/scene/offscreen.h"
 #include "tests/app/session_fixture.h"
+#include "tests/support/job_result.h"
 
 namespace worldy {
 namespace {
@@ -168,22 +169,14 @@ TEST(ComparedPictures, aDifferenceIsThatOfEachChannelTimesTheGain) {
     EXPECT_EQ(both.rgb, (std::vector<std::uint8_t>{1, 1, 1, 3, 3, 3, 2, 2, 2, 4, 4, 4}));
 }
 
-class ComparisonJobTest : public ComparisonTest {
-protected:
-    // Its own context stays current here meanwhile, as the window's does.
-    static planet::Result<ComparedPair> resultOf(ComparisonJob& job) {
-        for (;;) {
-            if (auto result = job.takeResult()) return *result;
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-    }
-};
+// The context of the fixture stays current here meanwhile, as the window's does.
+using ComparisonJobTest = ComparisonTest;
 
 TEST_F(ComparisonJobTest, measuresOnAThreadAndInAContextOfItsOwn) {
     ComparisonPlan plan = planFor(bakeHills());
     plan.sides[1].settings.lod.tauPx = 8;
     ComparisonJob job(plan);
-    const auto result = resultOf(job);
+    const auto result = tests::resultOf(job);
     ASSERT_TRUE(result) << result.error().message;
     ComparedPair here = compare(plan), there = *result;
     for (ComparedPair* pair : {&here, &there}) (*pair)[0].frameMs = (*pair)[1].frameMs = 0;
@@ -197,7 +190,7 @@ TEST_F(ComparisonJobTest, cancellingEndsIt) {
     ComparisonJob job(plan);
     while (job.progress() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     job.cancel();
-    const auto result = resultOf(job);
+    const auto result = tests::resultOf(job);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().kind, planet::ErrorKind::Cancelled);
     // So does dropping it.

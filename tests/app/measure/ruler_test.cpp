@@ -5,13 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 #include <thread>
 
 #include "app/scene/camera_control.h"
-#include "planet/bake/bake.h"
+#include "tests/support/hills_planet.h"
 #include "tests/support/sudden_lod.h"
-#include "tests/support/synthetic_source.h"
 #include "tests/support/temporary_folder.h"
 
 namespace worldy {
@@ -20,13 +18,6 @@ namespace {
 class RulerTest : public testing::Test {
 protected:
     RulerTest() {
-        const auto path = folder_ / "hills.chk";
-        planet::BakeSettings settings;
-        settings.chunkSize = 17;
-        settings.radiusM = 100'000;
-        if (!planet::bake(planet::test::hillsSource(), settings, path))
-            throw std::runtime_error("cannot bake");
-        planet_ = planet::Planet::open(path, {}).value();
         lod_.tauPx = 60;
         show(20'000);
     }
@@ -49,7 +40,7 @@ protected:
     }
 
     tests::TemporaryFolder folder_;
-    std::unique_ptr<planet::Planet> planet_;
+    std::unique_ptr<planet::Planet> planet_ = planet::test::openHills(folder_ / "hills.chk");
     planet::LodSettings lod_ = planet::suddenLod();
     planet::View view_;
     Ruler ruler_;

@@ -7,6 +7,7 @@
 #include "app/base/picture_file.h"
 #include "app/editor/sweep_controller.h"
 #include "tests/app/session_fixture.h"
+#include "tests/support/job_result.h"
 
 namespace worldy {
 namespace {
@@ -47,13 +48,6 @@ protected:
         return plan;
     }
 
-    static planet::Result<void> waitFor(SweepJob& job) {
-        for (;;) {
-            if (auto result = job.takeResult()) return *result;
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-    }
-
     // False if it does not end.
     bool advanceUntilDone(SweepController& controller) const {
         for (int i = 0; i < 60'000 && controller.job; ++i) {
@@ -83,7 +77,7 @@ std::vector<SweepPoint> withoutTimes(std::vector<SweepPoint> points) {
 TEST_F(Sweeping, BringsTheSamePointsOnAThreadAsWithoutOne) {
     const SweepPlan plan = planOver(bakeTo("own.chk", {.faceSize = 65, .chunkSize = 17}), 17);
     SweepJob job(plan);
-    const planet::Result<void> result = waitFor(job);
+    const planet::Result<void> result = tests::resultOf(job);
     ASSERT_TRUE(result) << result.error().message;
     const std::vector<SweepPoint> inJob = job.takePoints();
     EXPECT_TRUE(job.takePoints().empty());
@@ -131,7 +125,7 @@ TEST_F(Sweeping, SuggestsATauThatKeepsTheGoal) {
     SweepPlan plan = planOver(bakeTo("own.chk", {.faceSize = 129, .chunkSize = 17}), 17);
     plan.goal = TauGoal{.limitsError = true, .limit = 0.5};
     SweepJob job(plan);
-    const planet::Result<void> result = waitFor(job);
+    const planet::Result<void> result = tests::resultOf(job);
     ASSERT_TRUE(result) << result.error().message;
     const std::vector<SweepSuggestion> found = job.takeSuggestions();
     ASSERT_EQ(found.size(), 2u);
@@ -146,7 +140,7 @@ TEST_F(Sweeping, SuggestsATauThatKeepsTheGoal) {
     plan.metrics = {ErrorMetric::Additive};
     plan.tausPx = {found[0].found.tauPx, std::min(found[0].found.tauPx * 1.05, 64.0)};
     SweepJob check(plan);
-    ASSERT_TRUE(waitFor(check));
+    ASSERT_TRUE(tests::resultOf(check));
     const std::vector<SweepPoint> points = check.takePoints();
     ASSERT_EQ(points.size(), 2u);
     EXPECT_EQ(points[0].figures.worstMeasuredPx, found[0].found.value);
@@ -164,7 +158,7 @@ TEST_F(Sweeping, CancelledEndsSoonAndLeavesNothingUnfinishedBehind) {
         SweepJob job(plan);
         job.cancel();
         EXPECT_TRUE(job.cancelling());
-        const planet::Result<void> result = waitFor(job);
+        const planet::Result<void> result = tests::resultOf(job);
         ASSERT_FALSE(result);
         EXPECT_EQ(result.error().kind, planet::ErrorKind::Cancelled);
     }
@@ -179,14 +173,14 @@ TEST_F(Sweeping, ThatCannotBeFlownSaysWhichFile) {
     for (const auto& [plan, name] : {std::pair(planOver(folder_ / "gone.chk", 17), "gone.chk"),
                                      std::pair(planOver(file, 33), "own.chk")}) {
         SweepJob job(plan);
-        const planet::Result<void> result = waitFor(job);
+        const planet::Result<void> result = tests::resultOf(job);
         ASSERT_FALSE(result);
         EXPECT_THAT(result.error().message, HasSubstr(name));
     }
     SweepPlan plan = planOver(file, 17);
     plan.flight = folder_ / "bad.toml";
     SweepJob job(plan);
-    const planet::Result<void> result = waitFor(job);
+    const planet::Result<void> result = tests::resultOf(job);
     ASSERT_FALSE(result);
     EXPECT_THAT(result.error().message, HasSubstr("bad.toml"));
 }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/support/job_result.h"
 #include "tests/support/small_trace.h"
 #include "tests/support/temporary_folder.h"
 
@@ -25,12 +26,6 @@ protected:
         test::writeSmallTrace(a_);
         test::writeSmallTrace(b_, test::smallTraceFrames, {.rootFrame = 50, .rootFrames = 5});
     }
-    static Result<TraceCompared> waitFor(TraceCompareJob& job) {
-        for (;;) {
-            if (auto result = job.takeResult()) return *std::move(result);
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-    }
 
     tests::TemporaryFolder folder_;
     const std::filesystem::path a_ = folder_ / "a.lodtrace", b_ = folder_ / "b.lodtrace";
@@ -38,7 +33,7 @@ protected:
 
 TEST_F(TraceCompareJobs, findPlantedDifferencesAndNoOthers) {
     TraceCompareJob job({.fileA = a_, .fileB = b_});
-    const auto compared = waitFor(job);
+    const auto compared = tests::resultOf(job);
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_EQ(job.progress(), 1);
     const planet::TraceComparison& found = compared->found;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "planet/trace/trace_index.h"
+#include "tests/support/job_result.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/traced_flight.h"
 
@@ -34,13 +35,6 @@ float largest(const TracedValues& values, Quantity quantity) {
     return *std::ranges::max_element(each, [](float a, float b) { return std::isnan(a) || a < b; });
 }
 
-planet::Result<TraceWhatIfResult> waitFor(TraceWhatIfJob& job) {
-    for (;;) {
-        if (auto result = job.takeResult()) return *std::move(result);
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-}
-
 class TraceWhatIfJobs : public testing::Test {
 protected:
     tests::TemporaryFolder folder_;
@@ -51,7 +45,7 @@ protected:
 TEST_F(TraceWhatIfJobs, findTheNumbersOfTheCommand) {
     const TraceWhatIfRequest request = requestWith({1, 4});
     TraceWhatIfJob job(file_, request);
-    const auto found = waitFor(job);
+    const auto found = tests::resultOf(job);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(job.progress(), 1);
     auto file = planet::TraceFile::open(file_);
@@ -170,7 +164,7 @@ TEST_F(TraceWhatIfJobs, endWhenAsked) {
     TraceWhatIfJob job(file_, request);
     job.cancel();
     EXPECT_TRUE(job.cancelling());
-    const auto found = waitFor(job);
+    const auto found = tests::resultOf(job);
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().kind, planet::ErrorKind::Cancelled);
 }
@@ -206,7 +200,7 @@ TEST_F(TraceWhatIfJobs, aTraceThatIsCutOffIsReadToItsEnd) {
 TEST_F(TraceWhatIfJobs, aDeletedTraceIsAnErrorThatNamesIt) {
     std::filesystem::remove(file_);
     TraceWhatIfJob job(file_, requestWith({2}));
-    const auto found = waitFor(job);
+    const auto found = tests::resultOf(job);
     ASSERT_FALSE(found);
     EXPECT_THAT(found.error().message, HasSubstr("made.lodtrace"));
 }

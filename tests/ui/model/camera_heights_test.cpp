@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/planet_fixture.h"
 
 namespace worldy::ui {
@@ -33,14 +34,7 @@ TEST(CameraHeights, whereTheBedIsDrawnItIsNotCalledGround) {
     EXPECT_EQ(namedHeights(overBed)[1].heightM, 1500);
 }
 
-struct Viewed {
-    const FrameStats stats;
-    const std::deque<FrameSample> history;
-    const planet::LodChanges changes;
-    const std::deque<LogLine> log;
-    EditorView view{
-        .frames = {.stats = stats, .history = history}, .log = log, .instruments = {.changes = changes}};
-
+struct Viewed : EmptyView {
     Viewed(const planet::Planet& planet, const planet::CameraPose& pose) {
         view.planet = &planet;
         view.camera.pose = pose;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/planet_fixture.h"
 
 namespace worldy::ui {
@@ -135,6 +136,8 @@ TEST(GroundInMiddle, isOnTheMountainAheadThatRisesAboveTheEye) {
 
 class NoteSubjects : public testing::Test {
 protected:
+    NoteSubjects() { view_.planet = planet_.get(); }
+
     const NoteSubject& subject(const std::string& label) {
         subjects_ = noteSubjects(view_, 1);
         for (const NoteSubject& each : subjects_)
@@ -143,14 +146,8 @@ protected:
     }
 
     std::unique_ptr<planet::Planet> planet_ = planet::openFake();
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{.planet = planet_.get(),
-                     .frames = {.stats = stats_, .history = history_},
-                     .log = log_,
-                     .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
     std::vector<NoteSubject> subjects_;
 };
 

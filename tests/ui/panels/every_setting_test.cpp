@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/settings/settings_schema.h"
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/shell/panels.h"
@@ -60,14 +61,9 @@ TEST(PanelSettings, everyViewSettingHasAControl) {
     const auto planet = planet::openFake(sourceWithColours());
     const planet::View lodView = planet::viewAt(10, 20);
     ASSERT_TRUE(planet->settle(lodView, {}, planet::noUpload, planet::timeoutS));
-    const FrameStats stats;
-    const std::deque<FrameSample> history;
-    const planet::LodChanges changes;
-    const std::deque<LogLine> log;
-    EditorView view{.planet = planet.get(),
-                    .frames = {.stats = stats, .history = history},
-                    .log = log,
-                    .instruments = {.changes = changes}};
+    EmptyView empty;
+    EditorView& view = empty.view;
+    view.planet = planet.get();
     view.camera.lodView = view.camera.renderView = lodView;
     view.compare.on = true;
     PanelWindow window({700, 4000});

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "planet/planet_tools.h"
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/kit/chunk_link.h"
@@ -49,12 +50,8 @@ protected:
 
     PanelWindow window_{{400, 1600}};
     std::unique_ptr<planet::Planet> planet_;
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{
-        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
     PanelStates states_;
     ViewSettings settings_;
     int wantedChunkSize_ = 0;  // as if it had been chosen from the list
@@ -74,9 +71,9 @@ TEST_F(PanelControls, aBudgetTakesTheToleranceFromTheUser) {
     const double clickedPx = settings_.lod.tauPx;
     EXPECT_NE(clickedPx, 2);
     settings_.budget.triangles = 600'000;
-    stats_.budget = {
+    empty_.stats.budget = {
         .isOn = true, .isMeasured = true, .binds = planet::GovernorBudget::Triangles, .use = 0.9};
-    stats_.budget.uses[2] = 0.9;
+    empty_.stats.budget.uses[2] = 0.9;
     window_.movePointer({-1, -1});
     settings_.lod.tauPx = 2;
     click(PanelId::Lod, "Tolerance τ");
@@ -170,7 +167,7 @@ TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAl
     ASSERT_TRUE(planet_->settle(planet::viewAt(10, 20, 2e4), fine, planet::noUpload, planet::timeoutS));
     view_.planet = planet_.get();
     view_.camera.lodView = planet_->views()[0].input.lodView;
-    stats_.paging = planet_->paging();
+    empty_.stats.paging = planet_->paging();
     const std::vector<planet::FailedBlock> failed = planet_->inspect().failedBlocks();
     ASSERT_GT(failed.size(), 2u);
     const Commands all = click(PanelId::Paging, "Retry failed");
@@ -188,7 +185,7 @@ TEST_F(PanelControls, blocksThatCouldNotBeReadAreListedAndTriedAgainOneByOneOrAl
     // Without any, the list says so and asks for nothing.
     faulty.broken = false;
     planet_->tools().retryFailed();
-    stats_.paging = planet_->paging();
+    empty_.stats.paging = planet_->paging();
     for (int i = 0; i < 12; ++i) {
         view_.frames.timeS += 0.1;
         EXPECT_TRUE(frame(PanelId::Paging).empty());
@@ -324,8 +321,8 @@ TEST_F(PanelControls, aFileThatIsNoPresetIsNotReplaced) {
 }
 
 TEST_F(PanelControls, theLogIsCopiedAsItIsFiltered) {
-    log_.push_back({LogLevel::Info, "14:03:22", "opened"});
-    log_.push_back({LogLevel::Error, "14:03:23", "broken"});
+    empty_.log.push_back({LogLevel::Info, "14:03:22", "opened"});
+    empty_.log.push_back({LogLevel::Error, "14:03:23", "broken"});
     click(PanelId::Log, "info");
     Commands sent;
     ExportState exports;
@@ -347,19 +344,19 @@ TEST_F(PanelControls, theLogIsCopiedAsItIsFiltered) {
 TEST_F(PanelControls, aNewLogLineIsShownAtOnce) {
     states_.log.filter.text = {'b', 'r'};
     for (int i = 0; i < 3; ++i) {
-        log_.push_back({LogLevel::Error, "14:03:23", i == 1 ? "fine" : "broken"});
+        empty_.log.push_back({LogLevel::Error, "14:03:23", i == 1 ? "fine" : "broken"});
         frame(PanelId::Log);
     }
     EXPECT_EQ(states_.log.shown.lines, (std::vector<std::size_t>{0, 2}));
     // At its cap the log keeps its length.
-    log_.pop_front();
-    log_.push_back({LogLevel::Info, "14:03:24", "done"});
+    empty_.log.pop_front();
+    empty_.log.push_back({LogLevel::Info, "14:03:24", "done"});
     frame(PanelId::Log);
     EXPECT_EQ(states_.log.shown.lines, (std::vector<std::size_t>{1}));
 }
 
 TEST_F(PanelControls, aLogLineLeadsToItsChunk) {
-    log_.push_back({LogLevel::Error, "14:03:23", "chunk z_pos/3/1/2 is broken"});
+    empty_.log.push_back({LogLevel::Error, "14:03:23", "chunk z_pos/3/1/2 is broken"});
     const Commands select = click(PanelId::Log, "line 0");
     ASSERT_TRUE(only<SelectChunk>(select));
     EXPECT_EQ(only<SelectChunk>(select)->id, (planet::ChunkId{planet::Face::PosZ, 3, 1, 2}));

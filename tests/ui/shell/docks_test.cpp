@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 
 namespace worldy::ui {
@@ -33,17 +34,12 @@ protected:
         collectItems(&items_);
         ImGui::NewFrame();
         layout_ = layoutOf(1280, 800, workspace_, 22, 24, unitPx());
-        drawDocks(layout_, view(), panels_, docks_, workspace_, settings_, commands_);
+        drawDocks(layout_, empty_.view, panels_, docks_, workspace_, settings_, commands_);
         ImGui::Render();
         collectItems(nullptr);
     }
     void frames(int count) {
         for (int i = 0; i < count; ++i) frame();
-    }
-    EditorView view() const {
-        return {.frames = {.stats = stats_, .history = history_},
-                .log = log_,
-                .instruments = {.changes = changes_}};
     }
 
     bool isThere(std::string_view name) const {
@@ -94,10 +90,7 @@ protected:
     }
 
     PanelWindow window_{{1280, 800}};
-    const FrameStats stats_;
-    const std::deque<FrameSample> history_;
-    const planet::LodChanges changes_;
-    const std::deque<LogLine> log_;
+    EmptyView empty_;
     PanelStates panels_;
     DocksState docks_;
     Workspace workspace_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/data/worlds.h"
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "ui/shell/panels.h"
 
@@ -67,12 +68,8 @@ protected:
 
     PanelWindow window_{{420, 2000}};
     std::vector<World> worlds_ = worldy::worlds();
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{
-        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
     PanelStates states_;
     ViewSettings settings_;
     Commands asked_;

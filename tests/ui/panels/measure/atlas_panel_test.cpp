@@ -8,6 +8,7 @@
 
 #include "app/scene/atlas_drape.h"
 #include "planet/measure/atlas_sampling.h"
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 
@@ -67,12 +68,8 @@ protected:
     const AtlasDrape drape_ = drapeOf(cells_, AtlasMeasure::EpsPx, 0);
     AtlasPanelState state_;
     ViewSettings settings_;
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{
-        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
 };
 
 TEST_F(AtlasPanel, surveysThePlanetAndCancels) {

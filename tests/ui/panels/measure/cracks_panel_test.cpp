@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/shell/panels.h"
@@ -29,23 +30,15 @@ protected:
         window_.click(label, 0.5f, [&] { frame(); });
     }
     bool saysWhy(std::string_view label) {
-        frame();
-        const ItemPlace item = *window_.find(label);
-        PanelWindow::movePointer({item.rect.x + 2, item.rect.y + 2});
-        for (int i = 0; i < 3; ++i) frame();
-        return window_.isShown("Why grey");
+        return window_.saysWhy(label, [&] { frame(); });
     }
 
     PanelWindow window_{{400, 1200}};
     std::unique_ptr<planet::Planet> planet_ = planet::openFake();
     CrackMeasurement measured_;
     SmallestSkirts smallest_{30, 0.021};
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{
-        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
     PanelStates states_;
     ViewSettings settings_;
 };

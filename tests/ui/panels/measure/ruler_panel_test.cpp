@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/kit/exports.h"
@@ -57,12 +58,8 @@ protected:
     std::unique_ptr<planet::Planet> planet_ = planet::openFake();
     const MeasuredGround measured_ = threePlaces();
     const std::vector<glm::dvec3> ends_{{1e6, 0, 0}, {1e6 * std::cos(0.002), 1e6 * std::sin(0.002), 0}};
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{
-        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
 };
 
 TEST_F(RulerPanel, asksForClicks) {

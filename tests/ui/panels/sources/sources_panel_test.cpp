@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 #include "ui/model/source_text.h"
@@ -35,6 +36,7 @@ protected:
             edit_.layers.push_back(editedLayer(name));
             layers_.layers.push_back(readLayer(name));
         }
+        view_.planet = planet_.get();
         layers_.layers[1].skipped = {"/somewhere/broken.tif: is not a readable raster"};
     }
 
@@ -51,16 +53,13 @@ protected:
         return commands;
     }
     void drawOnce(const std::function<void(SourcesView&)>& change, Commands& commands) {
-        EditorView view{.planet = planet_.get(),
-                        .frames = {.stats = stats_, .history = history_},
-                        .log = log_,
-                        .instruments = {.changes = changes_}};
-        view.sources.state = SourcesView::State::Read;
-        view.sources.source = "/somewhere/world.toml";
-        view.sources.layers = &layers_;
-        view.sources.edit = &edit_;
-        if (change) change(view.sources);
-        sourcesPanel(view, state_, settings_, commands);
+        view_.sources = {};
+        view_.sources.state = SourcesView::State::Read;
+        view_.sources.source = "/somewhere/world.toml";
+        view_.sources.layers = &layers_;
+        view_.sources.edit = &edit_;
+        if (change) change(view_.sources);
+        sourcesPanel(view_, state_, settings_, commands);
     }
     // Returns the only edit that commands ask for.
     static const WorldEdit* editIn(const Commands& commands) {
@@ -85,12 +84,8 @@ protected:
     planet::SourceLayers layers_;
     SourcesPanelState state_;
     ViewSettings settings_;
-
-private:
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
 };
 
 TEST_F(SourcesPanel, listsTheTopLayerFirst) {

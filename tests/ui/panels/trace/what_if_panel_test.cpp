@@ -8,6 +8,7 @@
 
 #include <cstring>
 
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/traced_flight.h"
@@ -73,11 +74,7 @@ protected:
         return requests.empty() ? TraceWhatIfRequest{} : requests.front().request;
     }
     bool saysWhy(std::string_view label) {
-        frame();
-        const ItemPlace item = *window_.find(label);
-        PanelWindow::movePointer({item.rect.x + 2, item.rect.y + 2});
-        for (int i = 0; i < 3; ++i) frame();
-        return window_.isShown("Why grey");
+        return window_.saysWhy(label, [&] { frame(); });
     }
     // Returns the text of the panel.
     std::string text() {
@@ -94,12 +91,8 @@ protected:
     }
 
     PanelWindow window_{{1800, 420}};
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{
-        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
     WhatIfPanelState state_;
     Commands commands_;
 };
