@@ -37,6 +37,7 @@
 #include "app/cli/schedule_command.h"
 #include "app/cli/settings_command.h"
 #include "app/cli/shot_command.h"
+#include "app/cli/suggest_command.h"
 #include "app/cli/sweep_command.h"
 #include "app/cli/trace_command.h"
 #include "app/cli/trace_what_if_text.h"
@@ -406,6 +407,53 @@ void addAtlas(CLI::App& command, AtlasOptions& options, std::vector<std::string>
         ->needs(diff);
 }
 
+struct SuggestTexts {
+    std::string budget;
+    std::string cost;
+    std::vector<std::string> vary;
+};
+
+void addSuggest(CLI::App& command, SuggestOptions& options, SuggestTexts& texts) {
+    const auto many = [](CLI::Option* option) { option->expected(1)->take_all()->allow_extra_args(false); };
+    command.add_option("FILE", options.file, "Chunk file, or the trace of another engine")->required();
+    command
+        .add_option(
+            "--budget", texts.budget,
+            "What a frame may cost and leave, for example \"16.6 ms, 200 k triangles, 64 MiB, 1.5 px\"; one "
+            "of them or more")
+        ->required()
+        ->option_text("BUDGET");
+    many(command.add_option(
+        "--flight", options.flights,
+        "Flight to measure: keys (.toml) or the path of a recording (.flight); may be repeated"));
+    many(command.add_option("--recording", options.recordings,
+                            "Recording of FILE (.flight) to measure with its very views; may be repeated"));
+    command
+        .add_option(
+            "--altitudes", options.altitudesM,
+            "Altitudes of viewpoints of the whole planet, metres (200,5000,50000 without --flight and "
+            "--recording)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(number(0.1, 1e9));
+    command.add_option("--viewpoints", options.viewpoints, "Most viewpoints of the whole planet (600)")
+        ->check(CLI::Range(6, 100'000));
+    command
+        .add_option("--vary", texts.vary,
+                    fmt::format("What may vary: {} (all)", fmt::join(suggestVaryNames, ", ")))
+        ->delimiter(',');
+    command
+        .add_option(
+            "--frame-cost", texts.cost,
+            "Cost of a frame on the target machine, for example \"0.8 ms + 9 ms per million triangles\" "
+            "(measured on this machine)")
+        ->option_text("COST");
+    command.add_option("--step-s", options.stepS, "Seconds of a flight between frames (0.0333)")
+        ->check(number(1e-3, 3600));
+    command.add_option("--name", options.name, "Name of the files (suggested)");
+    command.add_flag("--no-pictures{false}", options.drawsPictures, "Draw no pictures of the worst places");
+}
+
 struct TraceTexts {
     std::string goal;
     std::string data = "all";
@@ -714,6 +762,42 @@ Result<void> finish(TraceCommandOptions& options, const TraceTexts& texts) {
     });
 }
 
+Result<void> finish(SuggestOptions& options, const SuggestTexts& texts) {
+    auto budget = suggestBudgetFromText(texts.budget);
+    if (!budget) return planet::badInput("--" + budget.error().message);
+    options.budget = *budget;
+    if (!texts.cost.empty()) {
+        auto cost = frameCostFromText(texts.cost);
+        if (!cost) return planet::badInput("--frame-cost: " + cost.error().message);
+        options.cost = *std::move(cost);
+    }
+    if (!texts.vary.empty()) {
+        const auto vary = suggestVaryFromTexts(texts.vary);
+        if (!vary) return tl::unexpected(vary.error());
+        options.vary = *vary;
+    }
+    const bool isName = !options.name.empty() && options.name.find('/') == std::string::npos &&
+                        options.name != "." && options.name != "..";
+    if (!isName)
+        return planet::badInput(
+            fmt::format("--name: \"{}\" is no name of a file; expected one without /", options.name));
+    const std::size_t altitudes =
+        options.altitudesM.empty() ? planet::AtlasGrid{}.altitudesM.size() : options.altitudesM.size();
+    std::ranges::sort(options.altitudesM);
+    if (altitudes > planet::mostAtlasAltitudes)
+        return planet::badInput(fmt::format("--altitudes: {} are too many; expected at most {}", altitudes,
+                                            planet::mostAtlasAltitudes));
+    if (Result<void> once = checkOnce("--altitudes", options.altitudesM); !once) return once;
+    const std::size_t least =
+        planet::faceCount * altitudes * static_cast<std::size_t>(planet::AtlasGrid{}.headings);
+    if (static_cast<std::size_t>(options.viewpoints) < least) {
+        return planet::badInput(
+            fmt::format("--viewpoints: {} are too few for {} altitudes; expected at least {}",
+                        options.viewpoints, altitudes, least));
+    }
+    return {};
+}
+
 // Sets both sides from the shared options. A side's own settings file replaces the shared one.
 Result<void> finish(CompareOptions& options, const SharedTexts& shared, const CompareTexts& sides) {
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -774,6 +858,8 @@ struct CommandLine {
     AuditOptions audit;
     AtlasOptions atlas;
     std::vector<std::string> atlasLimits;
+    SuggestOptions suggest;
+    SuggestTexts suggestTexts;
     ReplayOptions replay;
     CompareOptions compare;
     CompareTexts compareTexts;
@@ -819,6 +905,7 @@ struct CommandLine {
         addPrefetch(at("prefetch"), prefetch, prefetchTexts, shared["prefetch"].view);
         addAudit(at("audit"), audit, shared["audit"].view);
         addAtlas(at("atlas"), atlas, atlasLimits);
+        addSuggest(at("suggest"), suggest, suggestTexts);
         addReplay(at("replay"), replay);
         addCompare(at("compare"), compare, compareTexts);
         addMakeLayers(at("make-layers"), makeLayers);
@@ -929,6 +1016,8 @@ int runCommand(int argumentCount, const char* const* arguments) {
                           [&](const Settings&) {
                               return finish(line.atlas, line.shared.at("atlas"), line.atlasLimits);
                           })},
+        {"suggest", command("suggest", line.suggest, runSuggestCommand,
+                            [&](const Settings&) { return finish(line.suggest, line.suggestTexts); })},
         {"settings", command("settings", line.settings, runSettings, ready)},
         {"trace", command("trace", line.trace, runTrace,
                           [&](const Settings&) { return finish(line.trace, line.traceTexts); })},

@@ -26,7 +26,7 @@ constexpr FlightSampling everySeconds(double seconds) {
 }
 constexpr const char* reportHelp = "Report to write, JSON";
 
-constexpr std::array<CommandSpec, 21> commandTable = {{
+constexpr std::array<CommandSpec, 22> commandTable = {{
     {.name = "bake",
      .about = "Bake elevation images or rasters, a world file, six cube faces or procedural terrain into a "
               "chunk file",
@@ -97,6 +97,12 @@ constexpr std::array<CommandSpec, 21> commandTable = {{
          "compare it with an earlier survey, and exit with 1 if a limit is exceeded",
      .takes = pictureOptions | takes::output,
      .output = "Atlas to write, .atlas"},
+    {.name = "suggest",
+     .about = "Find settings that meet a budget on flights, recordings or the whole planet, and write them "
+              "with a report; "
+              "exits with 1 if the budget cannot be met",
+     .takes = pictureOptions | takes::mustOutput | takes::ownBudget,
+     .output = "Folder to write to: NAME.toml, NAME.regions.toml, NAME.md and NAME.png"},
     {.name = "replay",
      .about = "Replay a recorded flight without a display and check that every frame matches; with other "
               "settings, differences are reported but are no failure",
@@ -189,7 +195,7 @@ void addFlightOptions(CLI::App& command, const CommandSpec& spec, SharedTexts& t
     if (CLI::Option* camera = command.get_option_no_throw("--camera")) flight.excludes(camera);
 }
 
-void addViewOptions(CLI::App& command, ViewTexts& view) {
+void addViewOptions(CLI::App& command, bool takesBudget, ViewTexts& view) {
     command.add_option("--settings", view.settingsFile,
                        "Settings to start from: a settings file, a preset, or a Worldy screenshot");
     command.add_option(
@@ -198,7 +204,7 @@ void addViewOptions(CLI::App& command, ViewTexts& view) {
     command.add_option(
         "--regions", view.regions,
         "Regions with detail of their own, .regions.toml (the file beside FILE, if there is one)");
-    addSettingOption(command, "--budget", defaultField("paging.budget_mb"), view);
+    if (takesBudget) addSettingOption(command, "--budget", defaultField("paging.budget_mb"), view);
     addSettingFlag(command, "--no-culling", {"lod.frustum_culling=false", "lod.horizon_culling=false"},
                    "Turn off frustum and horizon culling", view);
     addSettingOption(command, "--fov", defaultField("view.fov_deg"), view);
@@ -329,7 +335,7 @@ CLI::App& addCommand(CLI::App& app, const CommandSpec& spec, SharedTexts& texts)
             ->take_all()
             ->allow_extra_args(false);
     }
-    if (takesAny(takes::view)) addViewOptions(command, texts.view);
+    if (takesAny(takes::view)) addViewOptions(command, !takesAny(takes::ownBudget), texts.view);
     if (takesAny(takes::worst)) {
         command
             .add_option("--worst", texts.worst,

@@ -32,7 +32,9 @@ inline constexpr unsigned taus = 1u << 9;        // --tau, a list
 inline constexpr unsigned set = 1u << 10;        // --set
 inline constexpr unsigned view = 1u << 11;       // --settings, --layers, --budget, --no-culling, --fov
 inline constexpr unsigned worst = 1u << 12;      // --worst
-inline constexpr unsigned source = 1u << 13;     // --metres-per-unit and other options for reading a source
+inline constexpr unsigned ownBudget =
+    1u << 14;  // no --budget for the paging, because the command has another one
+inline constexpr unsigned source = 1u << 13;  // --metres-per-unit and other options for reading a source
 }  // namespace takes
 
 struct CommandSpec {

@@ -10,6 +10,8 @@
 #include "app/data/data_set.h"
 #include "app/settings/layer_file.h"
 #include "app/settings/view_options.h"
+#include "app/suggest/suggest_files.h"
+#include "app/trace/trace_document.h"
 #include "planet/format/chunk_file.h"
 #include "planet/measure/atlas_file.h"
 #include "planet/sphere/cube_sphere.h"
@@ -192,6 +194,22 @@ CommandFiles filesOf(const ShotOptions& options) {
     files.inputs.insert(files.inputs.end(), {options.colourImage, options.shaderFolder});
     addLayerFiles(files, options.view);
     files.outputs = {{options.output, OutputKind::Picture}};
+    return files;
+}
+
+CommandFiles filesOf(const SuggestOptions& options) {
+    CommandFiles files;
+    addChunkFile(files, options.file);
+    for (const auto* inputs : {&options.flights, &options.recordings})
+        files.inputs.insert(files.inputs.end(), inputs->begin(), inputs->end());
+    files.inputs.push_back(options.view.regions.file);
+    addLayerFiles(files, options.view);
+    const SuggestFiles outputs = suggestFilesIn(options.output, options.name);
+    files.outputs = {{outputs.report, OutputKind::SuggestReport, true}};
+    if (isTraceFile(options.file)) return files;
+    files.outputs.push_back({outputs.preset, OutputKind::Preset, true});
+    files.outputs.push_back({outputs.regions, OutputKind::Regions, true});
+    files.outputs.push_back({outputs.page, OutputKind::Picture, true});
     return files;
 }
 

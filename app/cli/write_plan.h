@@ -15,6 +15,7 @@
 #include "app/cli/replay_command.h"
 #include "app/cli/schedule_command.h"
 #include "app/cli/shot_command.h"
+#include "app/cli/suggest_command.h"
 #include "app/cli/sweep_command.h"
 #include "app/cli/trace_command.h"
 #include "app/data/layer_materials.h"
@@ -39,6 +40,7 @@ CommandFiles filesOf(const PrefetchOptions& options);
 // Returns the files without the recording's chunk file, which is known only after the recording is read.
 CommandFiles filesOf(const ReplayOptions& options);
 CommandFiles filesOf(const ShotOptions& options);
+CommandFiles filesOf(const SuggestOptions& options);
 CommandFiles filesOf(const SweepOptions& options);
 CommandFiles filesOf(const TraceCommandOptions& options);
 

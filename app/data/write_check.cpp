@@ -12,6 +12,7 @@
 #include "app/data/own_colour.h"
 #include "app/data/worlds.h"
 #include "app/settings/layer_file.h"
+#include "app/settings/region_file.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "planet/base/atomic_file.h"
@@ -81,6 +82,10 @@ bool isOfKind(const fs::path& file, OutputKind kind) {
             return startOfFile(file, 8) == "LODTRACE";
         case OutputKind::Atlas:
             return startOfFile(file, 8) == "WORLDYAT";
+        case OutputKind::Regions:
+            return loadRegions(file).has_value();
+        case OutputKind::SuggestReport:
+            return startOfFile(file, lookedAtBytes).starts_with("# Suggested settings for ");
     }
     return false;
 }
@@ -109,6 +114,10 @@ std::string_view nameOf(OutputKind kind) {
             return "a trace";
         case OutputKind::Atlas:
             return "an atlas";
+        case OutputKind::Regions:
+            return "a regions file";
+        case OutputKind::SuggestReport:
+            return "a report of worldy suggest";
     }
     return "";
 }

@@ -23,6 +23,8 @@ enum class OutputKind : std::uint8_t {
     ItemMap,
     Trace,
     Atlas,
+    Regions,        // TOML
+    SuggestReport,  // Markdown of worldy suggest
 };
 
 struct OutputFile {

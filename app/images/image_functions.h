@@ -12,6 +12,7 @@
 
 #include "app/base/picture_file.h"
 #include "app/measure/sweep_plot.h"
+#include "app/suggest/suggest_page.h"
 #include "planet/bake/level_images.h"
 #include "planet/raster/image_formats.h"
 #include "planet/raster/vrt_file.h"
@@ -36,6 +37,7 @@ struct ImageFunctions {
     decltype(&worldy::writeTexture) writeTexture;
     decltype(&worldy::writeGrey16) writeGrey16;
     decltype(&worldy::plotSweep) plotSweep;
+    decltype(&worldy::drawSuggestPage) drawSuggestPage;
 };
 
 // Says which program a module fits: the version, and the sizes of what they hand each other.

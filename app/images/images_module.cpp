@@ -20,4 +20,5 @@ extern "C" const worldy::ImageModule worldyImageModule = {{WORLDY_VERSION},
                                                               .writeTexture = worldy::writeTexture,
                                                               .writeGrey16 = worldy::writeGrey16,
                                                               .plotSweep = worldy::plotSweep,
+                                                              .drawSuggestPage = worldy::drawSuggestPage,
                                                           }};

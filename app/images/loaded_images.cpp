@@ -91,6 +91,10 @@ Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost cost, co
     return call(&ImageFunctions::plotSweep, points, cost, title);
 }
 
+Result<Picture> drawSuggestPage(const SuggestPage& page) {
+    return call(&ImageFunctions::drawSuggestPage, page);
+}
+
 }  // namespace worldy
 
 namespace planet {

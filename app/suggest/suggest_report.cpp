@@ -1,0 +1,290 @@
+#include "app/suggest/suggest_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/base/text.h"
+#include "app/measure/sweep_points.h"
+#include "app/scene/frame_report.h"
+#include "app/suggest/suggest_budget.h"
+#include "app/suggest/suggest_run.h"
+#include "app/suggest/suggest_search.h"
+
+namespace worldy {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double valueOfLimit(const SuggestFigures& figures, SuggestLimit limit) {
+    return figures.values[static_cast<std::size_t>(limit)];
+}
+
+std::string verdictOf(const SuggestOutcome& outcome, SuggestLimit limit) {
+    const std::optional<double>& budget = outcome.budget[limit];
+    const double value = valueOfLimit(outcome.measured.figures, limit);
+    if (!budget) return "no budget";
+    if (std::isnan(value)) return "not measured";
+    const bool isPredicted = limit == SuggestLimit::FrameMs && (!outcome.cost || !outcome.cost->isMeasured);
+    const double over = value / *budget - 1;
+    if (over <= 0) return isPredicted ? "predicted to be met" : "met";
+    return fmt::format("{}exceeded by {:.3g} %", isPredicted ? "predicted to be " : "", 100 * over);
+}
+
+std::string regionsNote(const SuggestOutcome& outcome) {
+    const SuggestCandidate& best = outcome.found.best.candidate;
+    if (best.regions.empty()) return "";
+    const planet::Region& region = best.regions.front();
+    std::string where = fmt::format("{} circles around the places that cost most", region.circles.size());
+    if (region.heights)
+        where = fmt::format("ground between {:.0f} and {:.0f} m", region.heights->lowestM,
+                            region.heights->highestM);
+    return fmt::format(
+        "The region \"{}\" multiplies τ by {:g} in {}, so that τ can be smaller everywhere else.",
+        region.name, region.tauFactor.value_or(1), where);
+}
+
+std::string needsText(const SuggestOutcome& outcome) {
+    std::string text;
+    const SuggestNeeds& needs = outcome.found.needs;
+    const auto over = [&](const SuggestTrial& trial) {
+        std::vector<std::string> parts;
+        for (const SuggestLimit limit : suggestLimits) {
+            const double value = valueOfLimit(trial.figures, limit);
+            if (useOf(outcome.budget, limit, value) > 1) parts.push_back(limitText(limit, value));
+        }
+        return fmt::format("{}", fmt::join(parts, " and "));
+    };
+    if (outcome.budget.limitsCosts() && !needs.costsMet)
+        text += fmt::format(" No τ up to {:g} px meets the budgets of costs.", largestTauPx);
+    if (needs.costsMet)
+        text += fmt::format(" At τ = {:.3g} px the costs would fit, but the budget would have to allow {}.",
+                            needs.costsMet->candidate.tauPx, over(*needs.costsMet));
+    if (needs.errorMet)
+        text += fmt::format(" At τ = {:.3g} px the error would fit, but the budget would have to allow {}.",
+                            needs.errorMet->candidate.tauPx, over(*needs.errorMet));
+    return text;
+}
+
+Json figuresJson(const SuggestFigures& figures) {
+    Json json;
+    for (const SuggestLimit limit : suggestLimits) {
+        const double value = valueOfLimit(figures, limit);
+        json[std::string(textOf(limit).key)] = std::isnan(value) ? Json(nullptr) : Json(value);
+    }
+    json["p99_error_px"] = figures.p99ErrorPx;
+    json["mean_error_px"] = figures.meanErrorPx;
+    json["worst_pop_px"] = figures.worstPopPx;
+    json["pops"] = figures.pops;
+    json["thrashes"] = figures.thrashes;
+    json["late_share"] = figures.lateShare;
+    json["frames"] = figures.frames;
+    return json;
+}
+
+Json candidateJson(const SuggestCandidate& candidate) {
+    return {{"tau_px", candidate.tauPx},
+            {"metric", metricName(candidate.metric)},
+            {"morph_range", candidate.morphRange},
+            {"paging_budget_mib", candidate.memoryMiB},
+            {"regions", candidate.plan}};
+}
+
+}  // namespace
+
+std::vector<SuggestRow> rowsOf(const SuggestOutcome& outcome) {
+    std::vector<SuggestRow> rows;
+    for (const SuggestLimit limit : suggestLimits) {
+        const double before = valueOfLimit(outcome.beforeMeasured.figures, limit);
+        const double after = valueOfLimit(outcome.measured.figures, limit);
+        if (!outcome.budget[limit] && std::isnan(after)) continue;
+        rows.push_back({limit, outcome.budget[limit], before, after, verdictOf(outcome, limit)});
+    }
+    return rows;
+}
+
+std::string candidateText(const SuggestCandidate& candidate, std::string_view tau) {
+    std::string text = fmt::format("{} {:.3g} px, {}, morph range {:g}, {} MiB", tau, candidate.tauPx,
+                                   metricName(candidate.metric), candidate.morphRange, candidate.memoryMiB);
+    if (!candidate.regions.empty())
+        text += fmt::format(", {} x {:g}", candidate.plan, candidate.regions.front().tauFactor.value_or(1));
+    return text;
+}
+
+std::string verdictText(const SuggestOutcome& outcome) {
+    const bool isPredicted =
+        outcome.budget[SuggestLimit::FrameMs] && (!outcome.cost || !outcome.cost->isMeasured);
+    const char* const predicted = isPredicted ? ", with frame times that are predicted and not measured" : "";
+    if (outcome.isMet && outcome.found.isUnchanged)
+        return fmt::format("The settings already meet the budget of {}{}. Nothing needs to change.",
+                           budgetText(outcome.budget), predicted);
+    if (outcome.isMet) {
+        return fmt::format("The suggested settings meet the budget of {}{}. {}", budgetText(outcome.budget),
+                           predicted, regionsNote(outcome));
+    }
+    const auto binds = bindingLimit(outcome.budget, outcome.measured.figures.values);
+    std::string text = fmt::format("The budget of {} is not met.", budgetText(outcome.budget));
+    if (binds) {
+        const double value = valueOfLimit(outcome.measured.figures, *binds);
+        text +=
+            fmt::format(" The budget of {} binds: the closest settings have {} of {}.", textOf(*binds).noun,
+                        limitText(*binds, value), limitText(*binds, *outcome.budget[*binds]));
+    }
+    return text + needsText(outcome);
+}
+
+std::string scopeText(const SuggestOutcome& outcome) {
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < outcome.legs.size(); ++i)
+        parts.push_back(fmt::format("{} ({} frames)", outcome.legs[i], outcome.frames[i]));
+    return fmt::format(
+        "Measured were {}. A budget is met if 99.9 % of the frames of each flight and all viewpoints are "
+        "within it. The "
+        "figures are those of the written preset and regions, read back and measured again.",
+        fmt::join(parts, ", "));
+}
+
+std::string effortText(const SuggestOutcome& outcome) {
+    return fmt::format("The search took {} measurements of samples and {} of all frames, {} in all.",
+                       outcome.found.samples, outcome.found.wholes, durationText(outcome.elapsedS));
+}
+
+std::string frameTimeText(const SuggestOutcome& outcome) {
+    if (!outcome.budget[SuggestLimit::FrameMs] || !outcome.cost) return "";
+    const FrameCost& cost = *outcome.cost;
+    if (!cost.isMeasured)
+        return fmt::format("Frame times are predicted by the cost that was given, {}, and not measured.",
+                           frameCostText(cost));
+    std::string text = fmt::format(
+        "Frame times are those of this machine, {}: {}, fitted to {} frames that were drawn here, the "
+        "slowest of which "
+        "decides; the times before are by that fit.",
+        cost.machine, frameCostText(cost), cost.frames);
+    if (outcome.drawnFrames.empty()) return text;
+    double worst = 0;
+    for (const TimedFrame& frame : outcome.drawnFrames) worst = std::max(worst, frame.ms);
+    return text + fmt::format(" With the suggested settings, {} frames were drawn; the slowest took {}.",
+                              outcome.drawnFrames.size(), limitText(SuggestLimit::FrameMs, worst));
+}
+
+std::vector<SuggestEffect> effectsOf(const SuggestOutcome& outcome) {
+    const SuggestFigures& before = outcome.beforeMeasured.figures;
+    const SuggestFigures& after = outcome.measured.figures;
+    const auto px = [](double value) { return limitText(SuggestLimit::ErrorPx, value); };
+    return {{"Drawn error, 99th percentile of frames", px(before.p99ErrorPx), px(after.p99ErrorPx)},
+            {"Drawn error, mean of frames", px(before.meanErrorPx), px(after.meanErrorPx)},
+            {"Largest pop", px(before.worstPopPx), px(after.worstPopPx)},
+            {"Pops", fmt::format("{}", before.pops), fmt::format("{}", after.pops)},
+            {"Thrashes", fmt::format("{}", before.thrashes), fmt::format("{}", after.thrashes)},
+            {"Drawn chunks that wait for data", fmt::format("{:.2f} %", 100 * before.lateShare),
+             fmt::format("{:.2f} %", 100 * after.lateShare)}};
+}
+
+std::string placeCaption(const SuggestPlace& place) {
+    return fmt::format("{} {} at {}, {} up", textOf(place.limit).name, limitText(place.limit, place.value),
+                       placeText(place.pose.latitudeDeg, place.pose.longitudeDeg, 2),
+                       distanceText(place.pose.altitudeM));
+}
+
+std::string suggestMarkdown(const SuggestOutcome& outcome, const SuggestRequest& request,
+                            const std::string& name, bool hasPicture) {
+    std::string text = fmt::format("# Suggested settings for {}\n\n{}\n\n", request.file.filename().string(),
+                                   verdictText(outcome));
+    text += "| budget | limit | before | suggested | verdict |\n|---|---|---|---|---|\n";
+    for (const SuggestRow& row : rowsOf(outcome)) {
+        text += fmt::format("| {} | {} | {} | {} | {} |\n", textOf(row.limit).name,
+                            row.budget ? limitText(row.limit, *row.budget) : "none",
+                            limitText(row.limit, row.before), limitText(row.limit, row.after), row.verdict);
+    }
+    text += "\n## Settings\n\n";
+    if (outcome.changes.empty() && outcome.regionsText.empty()) {
+        text += "No setting changes.\n";
+    } else {
+        text += "| setting | before | suggested |\n|---|---|---|\n";
+        for (const SettingDifference& change : outcome.changes)
+            text += fmt::format("| `{}` | {} | {} |\n", change.setting, change.here, change.there);
+        if (!outcome.regionsText.empty())
+            text += fmt::format("\nThe regions are in `{}.regions.toml`.\n", name);
+    }
+    text += fmt::format("\n`worldy shot {} --settings {}.toml{} -o shot.png` draws the planet with them.\n",
+                        request.file.filename().string(), name,
+                        outcome.regionsText.empty() ? "" : fmt::format(" --regions {}.regions.toml", name));
+    text += "\n## What it costs and leaves\n\n| | before | suggested |\n|---|---|---|\n";
+    for (const SuggestEffect& effect : effectsOf(outcome))
+        text += fmt::format("| {} | {} | {} |\n", effect.name, effect.before, effect.after);
+    text +=
+        "\nThe drawn error is an upper bound of the distance between the drawn surface, morphs included, and "
+        "the "
+        "finest data, on the screen. Memory is that of the chunks, resident or needed, whichever is more.\n";
+    text += "\n## Worst places\n\n";
+    if (hasPicture) text += fmt::format("![The page with pictures of the places]({}.png)\n\n", name);
+    if (!outcome.noPictures.empty()) text += outcome.noPictures + "\n\n";
+    for (const SuggestPlace& place : outcome.places)
+        text += fmt::format("- {}, on {}: `{}`\n", placeCaption(place), place.leg, place.line);
+    text += fmt::format("\n## How it was measured\n\n{} {} {}\n", scopeText(outcome), frameTimeText(outcome),
+                        effortText(outcome));
+    text += "The chunk size was not varied, because another one needs another bake.\n";
+    if (outcome.settings.paging.badDisk.latencyMs == 0 && outcome.settings.paging.badDisk.bandwidthMBs == 0)
+        text += "Data arrived without delay, because the settings simulate no disk.\n";
+    else
+        text += fmt::format("Data came from a simulated disk of {:g} ms and {:g} MB/s.\n",
+                            outcome.settings.paging.badDisk.latencyMs,
+                            outcome.settings.paging.badDisk.bandwidthMBs);
+    return text;
+}
+
+Json suggestJson(const SuggestOutcome& outcome, const SuggestRequest& request) {
+    Json json = {{"file", request.file.string()},
+                 {"budget", budgetText(outcome.budget)},
+                 {"met", outcome.isMet},
+                 {"unchanged", outcome.found.isUnchanged},
+                 {"verdict", verdictText(outcome)}};
+    const auto binds = bindingLimit(outcome.budget, outcome.measured.figures.values);
+    json["binds"] = binds ? Json(textOf(*binds).key) : Json(nullptr);
+    json["limits"] = Json::array();
+    for (const SuggestRow& row : rowsOf(outcome)) {
+        json["limits"].push_back({{"limit", textOf(row.limit).key},
+                                  {"budget", row.budget ? Json(*row.budget) : Json(nullptr)},
+                                  {"verdict", row.verdict}});
+    }
+    json["before"] = figuresJson(outcome.beforeMeasured.figures);
+    json["suggested"] = figuresJson(outcome.measured.figures);
+    json["suggested"].update(candidateJson(outcome.found.best.candidate));
+    json["changes"] = Json::array();
+    for (const SettingDifference& change : outcome.changes)
+        json["changes"].push_back(
+            {{"setting", change.setting}, {"before", change.here}, {"suggested", change.there}});
+    json["places"] = Json::array();
+    for (const SuggestPlace& place : outcome.places) {
+        json["places"].push_back({{"limit", textOf(place.limit).key},
+                                  {"value", place.value},
+                                  {"flight", place.leg},
+                                  {"camera", poseJson(place.pose)},
+                                  {"command", place.line}});
+    }
+    if (outcome.cost) {
+        json["frame_cost"] = {{"fixed_ms", outcome.cost->fixedMs},
+                              {"ms_per_million_triangles", outcome.cost->msPerMillion},
+                              {"measured", outcome.cost->isMeasured},
+                              {"machine", outcome.cost->machine}};
+    }
+    json["samples"] = outcome.found.samples;
+    json["wholes"] = outcome.found.wholes;
+    json["trials"] = Json::array();
+    for (const SuggestTrial& trial : outcome.found.trials) {
+        Json entry = candidateJson(trial.candidate);
+        entry["scope"] = trial.scope == SuggestScope::Sample ? "sample" : "whole";
+        entry.update(figuresJson(trial.figures));
+        json["trials"].push_back(std::move(entry));
+    }
+    json["elapsed_s"] = outcome.elapsedS;
+    return json;
+}
+
+}  // namespace worldy

@@ -1,0 +1,463 @@
+#include "app/suggest/suggest_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/base/stopwatch.h"
+#include "app/flight/flight_path_file.h"
+#include "app/flight/flight_record.h"
+#include "app/measure/atlas_survey.h"
+#include "app/scene/offscreen.h"
+#include "app/scene/scene_settings.h"
+#include "app/settings/region_file.h"
+#include "app/settings/settings_schema.h"
+#include "app/settings/settings_text.h"
+#include "app/settings/shot_line.h"
+#include "app/suggest/suggest_plans.h"
+#include "planet/base/result.h"
+#include "planet/base/try.h"
+#include "planet/format/chunk_file.h"
+#include "planet/planet.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+namespace fs = std::filesystem;
+
+constexpr auto frameMsIndex = static_cast<std::size_t>(SuggestLimit::FrameMs);
+
+// Says how the search goes on, with the time that is left.
+class SuggestClock {
+public:
+    explicit SuggestClock(const SuggestWatcher& watcher) : watcher_(watcher) {}
+
+    void enter(SuggestStage stage) { progress_ = {.stage = stage, .measured = progress_.measured}; }
+    bool goOn(double share) {
+        progress_.share = share;
+        progress_.leftS = leftS();
+        return watcher_.progress(progress_);
+    }
+    void begin(const SuggestCandidate& candidate, SuggestScope scope) {
+        progress_.candidate = candidate;
+        scope_ = scope;
+        began_ = {};
+    }
+    void end() {
+        Times& times = of(scope_);
+        times.sumS += began_.elapsedMs() / 1000;
+        ++times.count;
+        if (times.ahead > 0) --times.ahead;
+        ++progress_.measured;
+        progress_.ahead = times_[0].ahead + times_[1].ahead;
+    }
+    void setAhead(std::size_t samples, std::size_t wholes) {
+        of(SuggestScope::Sample).ahead = samples;
+        of(SuggestScope::Whole).ahead = wholes;
+        progress_.ahead = samples + wholes;
+    }
+
+private:
+    struct Times {
+        double sumS = 0;
+        std::size_t count = 0;
+        std::size_t ahead = 0;
+    };
+    Times& of(SuggestScope scope) { return times_[static_cast<std::size_t>(scope)]; }
+    std::optional<double> leftS() const {
+        if (progress_.stage != SuggestStage::Searching) return std::nullopt;
+        double left = 0;
+        for (const Times& times : times_) {
+            if (times.ahead > 0 && times.count == 0) return std::nullopt;
+            if (times.count > 0)
+                left += times.sumS / static_cast<double>(times.count) * static_cast<double>(times.ahead);
+        }
+        return left;
+    }
+
+    const SuggestWatcher& watcher_;
+    SuggestProgress progress_;
+    SuggestScope scope_ = SuggestScope::Whole;
+    Stopwatch began_;
+    std::array<Times, 2> times_{};
+};
+
+Result<SuggestLeg> recordedLeg(const fs::path& file, const planet::ChunkFile& chunks) {
+    TRY_ASSIGN(const FlightRecord record, loadFlightRecord(file));
+    TRY(checkSameData(file, record.data, flightDataOf(chunks)));
+    if (record.frames.empty())
+        return planet::badInput(fmt::format("{}: has no frames; expected at least one", file.string()));
+    return legOf(record);
+}
+
+Result<SuggestLeg> surveyedLeg(const SuggestRequest& request, SuggestClock& clock) {
+    AtlasRequest survey;
+    survey.file = request.file;
+    survey.view = request.view;
+    survey.size = request.size;
+    survey.grid = *request.survey;
+    survey.recordsTree = false;
+    TRY_ASSIGN(const AtlasOutcome outcome,
+               surveyAtlas(survey, [&](const std::optional<planet::AtlasProgress>& progress) {
+                   const bool knows = progress && progress->total > 0;
+                   return clock.goOn(knows ? static_cast<double>(progress->done) /
+                                                 static_cast<double>(progress->total)
+                                           : 0);
+               }));
+    return legOf(outcome.atlas);
+}
+
+Result<std::vector<SuggestLeg>> legsOf(const SuggestRequest& request, const planet::ChunkFile& chunks,
+                                       SuggestClock& clock) {
+    std::vector<SuggestLeg> legs;
+    const double radiusM = chunks.info().shape.radiusM;
+    for (const fs::path& file : request.flights) {
+        TRY_ASSIGN(const FlightPath path, loadFlightPath(file));
+        TRY_ASSIGN(SuggestLeg leg,
+                   legOf(path, request.stepS, radiusM, request.view.camera.fovDeg, request.size));
+        legs.push_back(std::move(leg));
+    }
+    for (const fs::path& file : request.recordings) {
+        TRY_ASSIGN(SuggestLeg leg, recordedLeg(file, chunks));
+        legs.push_back(std::move(leg));
+    }
+    if (request.survey) {
+        TRY_ASSIGN(SuggestLeg leg, surveyedLeg(request, clock));
+        legs.push_back(std::move(leg));
+    }
+    if (legs.empty())
+        return planet::badInput("there is no place to measure; expected a flight, a recording or a survey");
+    return legs;
+}
+
+// Returns views spread over all legs.
+std::vector<planet::View> spreadViews(const std::vector<SuggestLeg>& legs, std::size_t ofEach) {
+    std::vector<planet::View> views;
+    for (const SuggestLeg& leg : legs) {
+        const std::size_t count = std::min(ofEach, leg.frames.size());
+        for (std::size_t i = 0; i < count; ++i)
+            views.push_back(leg.frames[(2 * i + 1) * leg.frames.size() / (2 * count)].view);
+    }
+    return views;
+}
+
+// Frames are timed and pictures are drawn without markings, which cost time.
+ViewSettings drawnSettings(ViewSettings settings) {
+    settings.overlay = {};
+    settings.overlay.regions = false;
+    settings.overlay.notes = false;
+    settings.paging.badDisk = {};
+    settings.paging.simulated = false;
+    return settings;
+}
+
+Result<Offscreen> openDrawn(const SuggestRequest& request, const ViewSettings& settings) {
+    return openOffscreen({.chunkFile = request.file, .colourImage = request.colourImage}, settings,
+                         request.size, 1);
+}
+
+Result<std::optional<FrameCost>> frameCostOf(const SuggestRequest& request,
+                                             const std::vector<SuggestLeg>& legs, SuggestClock& clock) {
+    if (request.cost || !request.budget[SuggestLimit::FrameMs]) return request.cost;
+    clock.enter(SuggestStage::Timing);
+    const ViewSettings settings = drawnSettings(settingsWith(request.view, candidateOf(request.view)));
+    Result<Offscreen> offscreen = openDrawn(request, settings);
+    if (!offscreen) {
+        return planet::badInput(fmt::format(
+            "frame times cannot be measured here: {}; expected OpenGL, a --frame-cost, or no budget in ms",
+            offscreen.error().message));
+    }
+    TRY_ASSIGN(const FrameCost cost, measureFrameCost(*offscreen, spreadViews(legs, 3), settings,
+                                                      [&](double share) { return clock.goOn(share); }));
+    return std::optional(cost);
+}
+
+template <class Value>
+std::vector<Value> firstThen(Value now, std::initializer_list<Value> others) {
+    std::vector<Value> all{now};
+    for (const Value other : others) {
+        if (std::ranges::find(all, other) == all.end()) all.push_back(other);
+    }
+    return all;
+}
+
+SuggestRanges rangesOf(const SuggestRequest& request) {
+    const SuggestCandidate now = candidateOf(request.view);
+    SuggestRanges ranges{.variesTau = request.vary.tau,
+                         .leastTauPx = smallestTauPx,
+                         .mostTauPx = largestTauPx,
+                         .metrics = {now.metric},
+                         .morphRanges = {now.morphRange},
+                         .memoriesMiB = {now.memoryMiB}};
+    if (request.vary.metric)
+        ranges.metrics = firstThen(now.metric, {planet::ErrorMetric::Additive, planet::ErrorMetric::Tight});
+    if (request.vary.morph && request.view.lod.morph)
+        ranges.morphRanges = firstThen(now.morphRange, {0.15, 0.3, 0.6});
+    // A paging budget above the limit fills up over time whatever is drawn, so it is never tried.
+    if (request.vary.memory && request.budget[SuggestLimit::ResidentBytes]) {
+        const auto& range = rangeOf("paging.budget_mb");
+        const double limitMiB = std::floor(*request.budget[SuggestLimit::ResidentBytes] / (1 << 20));
+        const int allowed = static_cast<int>(std::clamp(limitMiB, range.min, range.max));
+        ranges.memoriesMiB =
+            now.memoryMiB > allowed ? std::vector{allowed} : firstThen(now.memoryMiB, {allowed});
+    }
+    return ranges;
+}
+
+// The measurements of the search, and those of its whole candidates.
+class SuggestMeasurer {
+public:
+    SuggestMeasurer(SuggestMeter& meter, const SuggestRequest& request, SuggestClock& clock)
+        : meter_(meter), request_(request), clock_(clock) {}
+
+    Result<SuggestFigures> measure(const SuggestCandidate& candidate, SuggestScope scope) {
+        clock_.begin(candidate, scope);
+        TRY_ASSIGN(SuggestMeasured measured,
+                   meter_.measure(candidate, scope, [&](double share) { return clock_.goOn(share); }));
+        clock_.end();
+        const SuggestFigures figures = measured.figures;
+        if (scope == SuggestScope::Whole) wholes_.emplace_back(candidate, std::move(measured));
+        return figures;
+    }
+
+    const SuggestMeasured* measuredOf(const SuggestCandidate& candidate) const {
+        const auto found =
+            std::ranges::find_if(wholes_, [&](const auto& one) { return one.first == candidate; });
+        return found == wholes_.end() ? nullptr : &found->second;
+    }
+
+    std::vector<SuggestPlan> plans(const SuggestCandidate& candidate) {
+        const SuggestMeasured* const measured = measuredOf(candidate);
+        if (!measured || !request_.vary.regions) return {};
+        const auto binds = bindingLimit(costsOf(request_.budget), measured->figures.values);
+        if (!binds) return {};
+        std::vector<std::vector<SuggestGround>> frames;
+        for (const SuggestWorst& worst : measured->worst[static_cast<std::size_t>(*binds)]) {
+            // Frames far below the limit cost as much as the rest of the planet.
+            if (worst.value < 0.8 * *request_.budget[*binds]) continue;
+            auto ground = meter_.groundIn(candidate, worst.view);
+            if (ground) frames.push_back(std::move(*ground));
+        }
+        const std::vector<planet::Region> taken = request_.view.regions.all();
+        return plansOver(frames, meter_.planet().tree().shape.radiusM, taken);
+    }
+
+private:
+    static SuggestBudget costsOf(SuggestBudget budget) {
+        budget[SuggestLimit::ErrorPx].reset();
+        return budget;
+    }
+
+    SuggestMeter& meter_;
+    const SuggestRequest& request_;
+    SuggestClock& clock_;
+    std::vector<std::pair<SuggestCandidate, SuggestMeasured>> wholes_;
+};
+
+// Reads back what would be written, and says what it changes.
+Result<void> readBack(const SuggestRequest& request, const ViewSettings& suggested, SuggestOutcome& outcome) {
+    outcome.presetText = suggestPresetText(suggested);
+    const std::string place =
+        request.presetFile.empty() ? "the suggested preset" : request.presetFile.string();
+    TRY_ASSIGN(const ViewPart part, viewPartFromText(outcome.presetText, place));
+    outcome.settings = applied(part, request.view);
+    outcome.settings.regions = request.view.regions;
+    if (!outcome.found.best.candidate.regions.empty()) {
+        outcome.regionsText = regionsText(suggested.regions.applied());
+        TRY_ASSIGN(std::vector<planet::Region> regions,
+                   regionsFromText(outcome.regionsText, request.regionsFile));
+        outcome.settings.regions.list =
+            std::make_shared<const std::vector<planet::Region>>(std::move(regions));
+        outcome.settings.regions.file = request.regionsFile.string();
+        outcome.settings.regions.on = true;
+    }
+    Settings before, after;
+    before.view = request.view;
+    after.view = outcome.settings;
+    outcome.changes = differences(before, after);
+    return {};
+}
+
+std::string showLine(const SuggestRequest& request, const SuggestOutcome& outcome,
+                     const planet::CameraPose& pose) {
+    std::string line =
+        fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", shellWord(request.file.string()),
+                    cameraText(roundedPose(pose)), request.size.widthPx, request.size.heightPx);
+    if (!request.presetFile.empty()) line += " --settings " + shellWord(request.presetFile.string());
+    if (!outcome.settings.regions.file.empty())
+        line += " --regions " + shellWord(outcome.settings.regions.file);
+    return line;
+}
+
+std::vector<SuggestPlace> placesOf(const SuggestRequest& request, const std::vector<SuggestLeg>& legs,
+                                   const SuggestOutcome& outcome) {
+    std::vector<SuggestPlace> places;
+    const auto add = [&](SuggestLimit limit) {
+        const auto& worst = outcome.measured.worst[static_cast<std::size_t>(limit)];
+        for (std::size_t i = 0; i < std::min(worst.size(), request.worst); ++i) {
+            const planet::CameraPose pose = planet::poseFromView(worst[i].view, outcome.radiusM);
+            places.push_back(
+                {limit, worst[i].value, legs[worst[i].leg].name, pose, showLine(request, outcome, pose), {}});
+        }
+    };
+    // What it leaves comes first, then what it costs most.
+    add(SuggestLimit::ErrorPx);
+    SuggestBudget costs = request.budget;
+    costs[SuggestLimit::ErrorPx].reset();
+    if (const auto binds = bindingLimit(costs, outcome.measured.figures.values)) add(*binds);
+    return places;
+}
+
+// Draws the places, and times frames if those have a budget that was measured here. Without OpenGL, both are left out.
+Result<void> draw(const SuggestRequest& request, const std::vector<SuggestLeg>& legs, SuggestClock& clock,
+                  SuggestOutcome& outcome) {
+    const bool times = request.budget[SuggestLimit::FrameMs] && outcome.cost && outcome.cost->isMeasured;
+    if (!request.drawsPictures && !times) {
+        outcome.noPictures = "Pictures were not asked for.";
+        return {};
+    }
+    clock.enter(SuggestStage::Drawing);
+    const ViewSettings settings = drawnSettings(outcome.settings);
+    Result<Offscreen> offscreen = openDrawn(request, settings);
+    if (!offscreen) {
+        outcome.noPictures =
+            fmt::format("There are no pictures, because OpenGL is not there: {}.", offscreen.error().message);
+        return {};
+    }
+    std::vector<planet::View> timed;
+    if (times) {
+        timed = spreadViews(legs, 4);
+        for (const SuggestWorst& worst : outcome.measured.worst[frameMsIndex]) timed.push_back(worst.view);
+    }
+    const auto total = static_cast<double>(timed.size() + outcome.places.size());
+    std::size_t done = 0;
+    const std::function<bool()> goOn = [&] { return clock.goOn(static_cast<double>(done) / total); };
+    for (const planet::View& view : timed) {
+        TRY_ASSIGN(const TimedFrame frame, timeFrame(*offscreen, view, settings, goOn));
+        outcome.drawnFrames.push_back(frame);
+        double& ms = outcome.measured.figures.values[frameMsIndex];
+        ms = std::max(ms, frame.ms);
+        ++done;
+    }
+    for (SuggestPlace& place : outcome.places) {
+        if (!request.drawsPictures) break;
+        if (!goOn()) return planet::cancelled();
+        const SettledView at = settleAt(*offscreen, place.pose, settings, goOn);
+        if (!at.settled && !goOn()) return planet::cancelled();
+        TRY(drawAndFinish(*offscreen, at.view, settings));
+        place.picture = readPicture(*offscreen);
+        ++done;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<SuggestVary> suggestVaryFromTexts(const std::vector<std::string>& names) {
+    SuggestVary vary{false, false, false, false, false};
+    const std::array<bool*, suggestVaryNames.size()> members = {&vary.tau, &vary.metric, &vary.morph,
+                                                                &vary.memory, &vary.regions};
+    for (const std::string& name : names) {
+        const auto* const found = std::ranges::find(suggestVaryNames, name);
+        if (found == suggestVaryNames.end()) {
+            return planet::badInput(fmt::format("--vary: {} is unknown; expected some of {}", name,
+                                                fmt::join(suggestVaryNames, ", ")));
+        }
+        bool& member = *members[static_cast<std::size_t>(std::distance(suggestVaryNames.begin(), found))];
+        if (std::exchange(member, true))
+            return planet::badInput(fmt::format("--vary: {} is given twice; expected each value once", name));
+    }
+    return vary;
+}
+
+std::string suggestPresetText(const ViewSettings& settings) {
+    constexpr std::array<std::string_view, 5> tables = {"lod", "budget", "seams", "paging", "bad_disk"};
+    constexpr std::array<std::string_view, 8> names = {
+        "view.fov_deg", "surface.exaggeration", "surface.streamed", "surface.texels_per_pixel",
+        "surface.sea",  "surface.sea_level_m",  "light.sea",        "light.normals"};
+    ViewSettings copy = settings;
+    std::vector<Field> kept;
+    for (const Field& field : fieldsOf(copy)) {
+        if (std::ranges::find(tables, field.table) != tables.end() ||
+            std::ranges::find(names, field.name()) != names.end())
+            kept.push_back(field);
+    }
+    return "# Settings that worldy suggest has found and measured; keys not listed keep their values.\n" +
+           fieldsText(kept);
+}
+
+Result<SuggestOutcome> runSuggest(const SuggestRequest& request, const SuggestWatcher& watcher) {
+    const Stopwatch elapsed;
+    SuggestClock clock(watcher);
+
+    // 1. Open the planet, and collect what to measure.
+    if (request.budget.isEmpty()) return planet::badInput("there is no budget; expected at least one");
+    TRY_ASSIGN(const planet::ChunkFile chunks, planet::ChunkFile::open(request.file));
+    TRY_ASSIGN(std::vector<SuggestLeg> legs, legsOf(request, chunks, clock));
+
+    // 2. Find what a frame takes here.
+    SuggestOutcome outcome;
+    outcome.budget = request.budget;
+    TRY_ASSIGN(outcome.cost, frameCostOf(request, legs, clock));
+
+    // 3. Search.
+    clock.enter(SuggestStage::Searching);
+    const SuggestCandidate now = candidateOf(request.view);
+    outcome.before = settingsWith(request.view, now);
+    TRY_ASSIGN(auto planet,
+               planet::Planet::open(request.file,
+                                    pagingSettingsOf(outcome.before, false, planet::PagingTime::Simulated)));
+    outcome.radiusM = planet->tree().shape.radiusM;
+    SuggestMeter meter(std::move(planet), request.view, std::move(legs),
+                       outcome.cost ? &*outcome.cost : nullptr);
+    SuggestMeasurer measurer(meter, request, clock);
+    const SuggestCalls calls{
+        .measure = [&](const SuggestCandidate& candidate,
+                       SuggestScope scope) { return measurer.measure(candidate, scope); },
+        .plans = [&](const SuggestCandidate& candidate) { return measurer.plans(candidate); },
+        .tried =
+            [&](const SuggestTrial& trial) {
+                if (watcher.tried) watcher.tried(trial);
+            },
+        .ahead = [&](std::size_t samples, std::size_t wholes) { clock.setAhead(samples, wholes); }};
+    TRY_ASSIGN(outcome.found, searchSuggestion(request.budget, now, rangesOf(request), calls));
+    if (const SuggestMeasured* before = measurer.measuredOf(now)) outcome.beforeMeasured = *before;
+
+    // 4. Read back what would be written, and measure that.
+    clock.enter(SuggestStage::Verifying);
+    TRY(readBack(request, settingsWith(request.view, outcome.found.best.candidate), outcome));
+    TRY_ASSIGN(auto reopened,
+               planet::Planet::open(
+                   request.file, pagingSettingsOf(outcome.settings, false, planet::PagingTime::Simulated)));
+    SuggestMeter again(std::move(reopened), outcome.settings, meter.legs(),
+                       outcome.cost ? &*outcome.cost : nullptr);
+    TRY_ASSIGN(outcome.measured, again.measure(candidateOf(outcome.settings), SuggestScope::Whole,
+                                               [&](double share) { return clock.goOn(share); }));
+    for (const SuggestLeg& leg : meter.legs()) {
+        outcome.legs.push_back(leg.name);
+        outcome.frames.push_back(leg.frames.size());
+    }
+
+    // 5. Look at the worst places.
+    outcome.places = placesOf(request, meter.legs(), outcome);
+    TRY(draw(request, meter.legs(), clock, outcome));
+    outcome.isMet = mostUse(outcome.budget, outcome.measured.figures.values) <= 1;
+    outcome.elapsedS = elapsed.elapsedMs() / 1000;
+    return outcome;
+}
+
+}  // namespace worldy
