@@ -273,6 +273,12 @@ picture_sweep() {
     until_true counts suggested -eq 2; sleep 2; click "sweep/Row 4"; aside
     dock sweep
 }
+picture_suggest() {
+    start < <(above_india; window 1820 660; only suggest 1000)
+    settle; click "suggest/Flight andes low fast"; click "suggest/Flight orbit to ground"; enter suggest/Triangles 100000
+    click suggest/Suggest; until_true says 'suggested settings meet' || until_true says 'suggested settings meet'; aside
+    dock suggest
+}
 
 # The whole window.
 picture_compare() {
@@ -367,7 +373,7 @@ for name in whole_earth sunset_limb himalaya coast ridge ridged_world andes ande
 done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
-    chunk paging frame timeline bake sources log true_error cracks pops precision ruler flight sweep trace_cesium trace trace_nodes \
+    chunk paging frame timeline bake sources log true_error cracks pops precision ruler flight sweep suggest trace_cesium trace trace_nodes \
     trace_what_if notes"
 any=no
 for name in $windows; do asked $name && any=yes; done

@@ -161,6 +161,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     advancePreview(bakes_.preview);
     advanceSweep(sweep_, notices_.log);
     advanceAtlas(instruments_.atlas, notices_.log);
+    advanceSuggest(instruments_.suggest, notices_.log);
     takeUpSession(session, commands);
     advanceNotes(files_.notes, shownPlanet(session), frames_.timeS, notices_);
     advanceTrace(files_.trace, movedS, notices_.log);
@@ -451,6 +452,7 @@ ui::EditorView Editor::view(Session& session) {
     const Scene* scene = camera_.rig ? shownScene(session) : nullptr;
     ui::InstrumentsView instruments = instrumentsViewOf(instruments_, scene, view, settings, frames_.frame);
     instruments.atlas = atlasViewOf(instruments_.atlas, shownPlanet(session));
+    instruments.suggest = suggestViewOf(instruments_.suggest, shownPlanet(session));
     return {.planet = scene ? scene->planet.get() : nullptr,
             .frames = framesViewOf(frames_, frameLimit()),
             .log = window_.logLines,
@@ -484,6 +486,8 @@ void Editor::tellProblems(const Session& session) {
     tell(PanelId::Sweep, "The sweep has no result", sweep_.cancelled ? "" : sweep_.problem);
     tell(PanelId::Atlas, "The planet was not surveyed",
          instruments_.atlas.cancelled ? "" : instruments_.atlas.problem);
+    tell(PanelId::Suggest, "No settings were searched",
+         instruments_.suggest.cancelled ? "" : instruments_.suggest.problem);
     tell(PanelId::Compare, "There is no comparison", compare_.problem);
     tell(PanelId::Compare, "The flight was not compared",
          compare_.flight.cancelled ? "" : compare_.flight.problem);
@@ -553,6 +557,10 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                     scene ? std::optional(scene->planet->tree().shape.radiusM) : std::nullopt;
                 worldy::execute(files_.trace, c, settings_.settings.workspace, radiusM, notices_, next);
             },
+            [&](const ui::SuggestCommand& c) {
+                worldy::execute(instruments_.suggest, c, {shownPlanet(session), settings_, replaying()},
+                                notices_);
+            },
             [&](const ui::AtlasCommand& c) {
                 worldy::execute(instruments_.atlas, c,
                                 {shownPlanet(session), settings_, camera_, camera, replaying()}, notices_);
@@ -572,7 +580,7 @@ std::size_t Editor::runningJobs() const {
            std::size_t{bakes_.preview.job != nullptr} + std::size_t{sources.reader.job != nullptr} +
            std::size_t{sources.queries.job != nullptr} + std::size_t{sources.depths.job != nullptr} +
            std::size_t{instruments_.ruler.job != nullptr} + std::size_t{instruments_.atlas.job != nullptr} +
-           sources.reader.ending.size();
+           std::size_t{instruments_.suggest.job != nullptr} + sources.reader.ending.size();
 }
 
 void Editor::watchAllocations(const Session& session) {

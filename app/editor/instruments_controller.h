@@ -4,6 +4,7 @@
 
 #include "app/editor/atlas_controller.h"
 #include "app/editor/camera_controller.h"
+#include "app/editor/suggest_controller.h"
 #include "app/editor/viewport.h"
 #include "app/measure/cracks.h"
 #include "app/measure/error_job.h"
@@ -30,6 +31,7 @@ struct InstrumentsController {
     ErrorMeter errors;
     Ruler ruler;
     AtlasController atlas;
+    SuggestController suggest;
 };
 
 // Parts of other features that instrument commands use and change.

@@ -39,7 +39,8 @@ enum class PanelId : std::uint8_t {
     Notes,
     Timeline,
     Regions,
-    Atlas
+    Atlas,
+    Suggest
 };
 
 // Second: a window of the operating system for a second monitor, which is open while it has panels.
@@ -87,6 +88,7 @@ inline constexpr auto panelInfos = std::to_array<PanelInfo>({
     {PanelId::Timeline, "Timeline", "timeline", "Ctrl+Shift+T", Dock::Bottom, false},
     {PanelId::Regions, "Regions", "regions", "Ctrl+R", Dock::Right, false},
     {PanelId::Atlas, "Atlas", "atlas", "Ctrl+Shift+A", Dock::Bottom, false},
+    {PanelId::Suggest, "Suggest", "suggest", "Ctrl+Shift+G", Dock::Bottom, false},
 });
 inline constexpr std::size_t panelCount = panelInfos.size();
 static_assert(

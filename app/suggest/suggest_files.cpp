@@ -87,8 +87,8 @@ SuggestPage suggestPageOf(const SuggestOutcome& outcome, const SuggestRequest& r
     }
     for (const SuggestPlace& place : outcome.places)
         page.places.push_back({placeCaption(place), place.picture});
-    page.notes = fmt::format("{} {} {} {}", scopeText(outcome), frameTimeText(outcome), effortText(outcome),
-                             outcome.noPictures);
+    page.notes = methodText(outcome);
+    if (!outcome.noPictures.empty()) page.notes += " " + outcome.noPictures;
     return page;
 }
 

@@ -46,7 +46,7 @@ std::string regionsNote(const SuggestOutcome& outcome) {
         where = fmt::format("ground between {:.0f} and {:.0f} m", region.heights->lowestM,
                             region.heights->highestM);
     return fmt::format(
-        "The region \"{}\" multiplies τ by {:g} in {}, so that τ can be smaller everywhere else.",
+        " The region \"{}\" multiplies τ by {:g} in {}, so that τ can be smaller everywhere else.",
         region.name, region.tauFactor.value_or(1), where);
 }
 
@@ -125,7 +125,7 @@ std::string verdictText(const SuggestOutcome& outcome) {
         return fmt::format("The settings already meet the budget of {}{}. Nothing needs to change.",
                            budgetText(outcome.budget), predicted);
     if (outcome.isMet) {
-        return fmt::format("The suggested settings meet the budget of {}{}. {}", budgetText(outcome.budget),
+        return fmt::format("The suggested settings meet the budget of {}{}.{}", budgetText(outcome.budget),
                            predicted, regionsNote(outcome));
     }
     const auto binds = bindingLimit(outcome.budget, outcome.measured.figures.values);
@@ -145,8 +145,9 @@ std::string scopeText(const SuggestOutcome& outcome) {
         parts.push_back(fmt::format("{} ({} frames)", outcome.legs[i], outcome.frames[i]));
     return fmt::format(
         "Measured were {}. A budget is met if 99.9 % of the frames of each flight and all viewpoints are "
-        "within it. The "
-        "figures are those of the written preset and regions, read back and measured again.",
+        "within it; the worst places can be among the others. The figures are those of the written preset "
+        "and "
+        "regions, read back and measured again.",
         fmt::join(parts, ", "));
 }
 
@@ -171,6 +172,11 @@ std::string frameTimeText(const SuggestOutcome& outcome) {
     for (const TimedFrame& frame : outcome.drawnFrames) worst = std::max(worst, frame.ms);
     return text + fmt::format(" With the suggested settings, {} frames were drawn; the slowest took {}.",
                               outcome.drawnFrames.size(), limitText(SuggestLimit::FrameMs, worst));
+}
+
+std::string methodText(const SuggestOutcome& outcome) {
+    const std::string times = frameTimeText(outcome);
+    return fmt::format("{} {}{}{}", scopeText(outcome), times, times.empty() ? "" : " ", effortText(outcome));
 }
 
 std::vector<SuggestEffect> effectsOf(const SuggestOutcome& outcome) {
@@ -227,8 +233,7 @@ std::string suggestMarkdown(const SuggestOutcome& outcome, const SuggestRequest&
     if (!outcome.noPictures.empty()) text += outcome.noPictures + "\n\n";
     for (const SuggestPlace& place : outcome.places)
         text += fmt::format("- {}, on {}: `{}`\n", placeCaption(place), place.leg, place.line);
-    text += fmt::format("\n## How it was measured\n\n{} {} {}\n", scopeText(outcome), frameTimeText(outcome),
-                        effortText(outcome));
+    text += fmt::format("\n## How it was measured\n\n{}\n", methodText(outcome));
     text += "The chunk size was not varied, because another one needs another bake.\n";
     if (outcome.settings.paging.badDisk.latencyMs == 0 && outcome.settings.paging.badDisk.bandwidthMBs == 0)
         text += "Data arrived without delay, because the settings simulate no disk.\n";

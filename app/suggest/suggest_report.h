@@ -31,6 +31,8 @@ std::string verdictText(const SuggestOutcome& outcome);
 std::string scopeText(const SuggestOutcome& outcome);
 std::string effortText(const SuggestOutcome& outcome);
 std::string frameTimeText(const SuggestOutcome& outcome);
+// Returns the last three together.
+std::string methodText(const SuggestOutcome& outcome);
 // Returns what it costs and leaves besides the budgets, before and after.
 struct SuggestEffect {
     std::string name, before, after;

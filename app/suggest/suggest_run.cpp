@@ -367,21 +367,12 @@ Result<void> draw(const SuggestRequest& request, const std::vector<SuggestLeg>& 
 
 }  // namespace
 
-Result<SuggestVary> suggestVaryFromTexts(const std::vector<std::string>& names) {
-    SuggestVary vary{false, false, false, false, false};
-    const std::array<bool*, suggestVaryNames.size()> members = {&vary.tau, &vary.metric, &vary.morph,
-                                                                &vary.memory, &vary.regions};
-    for (const std::string& name : names) {
-        const auto* const found = std::ranges::find(suggestVaryNames, name);
-        if (found == suggestVaryNames.end()) {
-            return planet::badInput(fmt::format("--vary: {} is unknown; expected some of {}", name,
-                                                fmt::join(suggestVaryNames, ", ")));
-        }
-        bool& member = *members[static_cast<std::size_t>(std::distance(suggestVaryNames.begin(), found))];
-        if (std::exchange(member, true))
-            return planet::badInput(fmt::format("--vary: {} is given twice; expected each value once", name));
-    }
-    return vary;
+void nameSuggestFiles(SuggestRequest& request, const fs::path& preset, const fs::path& regions,
+                      SuggestOutcome& outcome) {
+    request.presetFile = preset;
+    request.regionsFile = regions;
+    if (!outcome.regionsText.empty()) outcome.settings.regions.file = regions.string();
+    for (SuggestPlace& place : outcome.places) place.line = showLine(request, outcome, place.pose);
 }
 
 std::string suggestPresetText(const ViewSettings& settings) {

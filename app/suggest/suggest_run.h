@@ -18,23 +18,11 @@
 #include "app/suggest/suggest_budget.h"
 #include "app/suggest/suggest_meter.h"
 #include "app/suggest/suggest_search.h"
+#include "app/suggest/suggest_vary.h"
 #include "planet/measure/atlas.h"
 #include "planet/sphere/view.h"
 
 namespace worldy {
-
-// What may vary besides τ.
-struct SuggestVary {
-    bool tau = true;
-    bool metric = true;
-    bool morph = true;
-    bool memory = true;
-    bool regions = true;  // places and bands of ground heights
-};
-inline constexpr std::array<std::string_view, 5> suggestVaryNames = {"tau", "metric", "morph", "memory",
-                                                                     "regions"};
-// Reads such names; the Error names one that is unknown or given twice.
-planet::Result<SuggestVary> suggestVaryFromTexts(const std::vector<std::string>& names);
 
 struct SuggestRequest {
     std::filesystem::path file;  // the chunk file
@@ -106,6 +94,10 @@ struct SuggestWatcher {
 // Creates a GL context on the calling thread if one is needed, and leaves none current. Writes no file. The Error names a
 // file or an option, or is of kind Cancelled.
 planet::Result<SuggestOutcome> runSuggest(const SuggestRequest& request, const SuggestWatcher& watcher);
+
+// Says where the suggestion is written, if that was not known before: the commands of the places name these files.
+void nameSuggestFiles(SuggestRequest& request, const std::filesystem::path& preset,
+                      const std::filesystem::path& regions, SuggestOutcome& outcome);
 
 // Returns the settings that decide what was measured, as the text of a preset.
 std::string suggestPresetText(const ViewSettings& settings);

@@ -149,6 +149,14 @@ private:
             best = tauPx;
             if (budget_.limitsCosts()) break;
         }
+        // If not even the smallest τ uses the budgets of costs up, a larger one that leaves as little error is enough.
+        if (best != ranges_.leastTauPx || !budget_.limitsCosts()) return best;
+        for (auto one = known_.rbegin(); one != known_.rend(); ++one) {
+            if (!meets(budget_, one->second)) continue;
+            const bool leavesAsLittle = compared(one->second.p99ErrorPx, known_.at(*best).p99ErrorPx) == 0 &&
+                                        compared(one->second.meanErrorPx, known_.at(*best).meanErrorPx) == 0;
+            if (leavesAsLittle) return one->first;
+        }
         return best;
     }
 

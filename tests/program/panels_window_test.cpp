@@ -372,6 +372,36 @@ key ctrl+z; click "atlas/Tint planet"; frames
     EXPECT_EQ(check.exitCode, 0) << check.output << check.errors;
 }
 
+TEST_F(PanelsWindowTest, SettingsForABudgetAreSearchedAppliedAndSaved) {
+    const Ran ran = runInWindow(folder, "planet.chk", R"sh(
+slide "lod/Tolerance τ" 0.05; settle
+key ctrl+shift+g; tab Suggest
+fine=$(counter triangles)
+click "suggest/Limit Drawn error"; click "suggest/Vary metric"; click "suggest/Vary morph range"; click "suggest/Vary regions"
+enter suggest/Triangles 8000
+click suggest/Suggest; expect says "The suggested settings meet the budget of 8000 triangles"
+click suggest/Apply; settle
+expect counts triangles -lt $fine
+key ctrl+z; settle
+expect counts triangles -eq $fine
+click "suggest/Save report"; expect says "Suggestion saved"
+)sh",
+                                {"1700x1000"});
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    EXPECT_EQ(ran.output, "") << ran.errors;
+    std::filesystem::path report;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        if (entry.path().extension() == ".md") report = entry.path();
+    ASSERT_FALSE(report.empty());
+    EXPECT_NE(contentOf(report).find("8000 triangles"), std::string::npos);
+    std::filesystem::path preset = report;
+    preset.replace_extension(".toml");
+    const Ran shot =
+        runWorldy(folder, "shot planet.chk -o shot.png --settings '" + preset.filename().string() + "'");
+    EXPECT_EQ(shot.exitCode, 0) << shot.errors;
+    EXPECT_TRUE(readPicture(report.replace_extension(".png")));
+}
+
 TEST_F(PanelsWindowTest, ComparingShowsTwoSettingsAndEnds) {
     drive(R"sh(
 slide "lod/Tolerance τ" 0; settle; plain=$(viewport)

@@ -20,6 +20,7 @@ Command::Command(CompareCommand command) : feature_(std::move(command)) {}
 Command::Command(SourceCommand command) : feature_(std::move(command)) {}
 Command::Command(TraceCommand command) : feature_(std::move(command)) {}
 Command::Command(AtlasCommand command) : feature_(std::move(command)) {}
+Command::Command(SuggestCommand command) : feature_(std::move(command)) {}
 Command::Command(NoteCommand command) : feature_(std::move(command)) {}
 
 Command::Command(Command&&) noexcept = default;

@@ -19,7 +19,10 @@
 #include "app/measure/pop_side.h"
 #include "app/measure/sweep_points.h"
 #include "app/notes/note.h"
+#include "app/settings/camera_text.h"
 #include "app/settings/view_settings.h"
+#include "app/suggest/suggest_budget.h"
+#include "app/suggest/suggest_vary.h"
 #include "app/trace/trace_what_if_request.h"
 #include "planet/bake/bake.h"
 #include "planet/measure/atlas.h"
@@ -393,6 +396,19 @@ struct LookFromAtlas {          // moves the camera to a viewpoint and takes ove
 };
 using AtlasCommand = std::variant<OpenAtlas, StartAtlas, CancelAtlas, ChooseAtlas, LookFromAtlas>;
 
+// Settings for a budget (app/suggest).
+struct StartSuggest {      // for the shown planet, in the background, from the current settings
+    SuggestBudget budget;  // not empty
+    std::vector<std::filesystem::path> flights{};
+    bool surveys = false;  // also measures viewpoints of the whole planet
+    SuggestVary vary{};
+    PictureSize size{};
+};
+struct CancelSuggest {};
+struct ApplySuggest {};  // of the last result
+struct SaveSuggest {};   // beside the screenshots
+using SuggestCommand = std::variant<StartSuggest, CancelSuggest, ApplySuggest, SaveSuggest>;
+
 // Notes on the planet.
 struct AddNote {
     Note note;
@@ -409,10 +425,10 @@ struct OpenNote {  // in the Notes panel
 };
 using NoteCommand = std::variant<AddNote, EditNote, DeleteNote, OpenNote>;
 
-using FeatureCommand =
-    std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand, BakeCommand,
-                 SettingsCommand, WindowCommand, LayerCommand, InstrumentCommand, RecordingCommand,
-                 SweepCommand, CompareCommand, SourceCommand, TraceCommand, AtlasCommand, NoteCommand>;
+using FeatureCommand = std::variant<ChunkCommand, CameraCommand, PagingCommand, FrameCommand, FileCommand,
+                                    BakeCommand, SettingsCommand, WindowCommand, LayerCommand,
+                                    InstrumentCommand, RecordingCommand, SweepCommand, CompareCommand,
+                                    SourceCommand, TraceCommand, AtlasCommand, SuggestCommand, NoteCommand>;
 
 // FeatureOf<Kind> is the variant that holds a kind of command: FeatureOf<SelectChunk> is ChunkCommand.
 template <class Kind, class Features>
@@ -448,6 +464,7 @@ public:
     Command(SourceCommand command);
     Command(TraceCommand command);
     Command(AtlasCommand command);
+    Command(SuggestCommand command);
     Command(NoteCommand command);
     Command(Command&&) noexcept;
     Command& operator=(Command&&) noexcept;

@@ -36,6 +36,7 @@
 #include "ui/model/recording_view.h"
 #include "ui/model/ruler_view.h"
 #include "ui/model/sources_view.h"
+#include "ui/model/suggest_view.h"
 #include "ui/model/sweep_view.h"
 #include "ui/model/trace_view.h"
 
@@ -166,6 +167,7 @@ struct InstrumentsView {
     PopsView pops{};
     ProbeView probe{};
     RulerView ruler{};
+    SuggestView suggest{};
 };
 
 // One member per feature, filled by its controller.

@@ -192,6 +192,7 @@ const char* submenuOf(PanelId panel) {
         case PanelId::Compare:
         case PanelId::Sweep:
         case PanelId::Atlas:
+        case PanelId::Suggest:
         case PanelId::Ruler:
         case PanelId::Timeline:
             return "Measuring panels";

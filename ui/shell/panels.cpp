@@ -69,6 +69,8 @@ void drawPanel(PanelId id, const EditorView& view, PanelStates& states, ViewSett
             return regionsPanel(view, states.regions, settings, commands);
         case PanelId::Atlas:
             return atlasPanel(view, states.atlas, settings, commands);
+        case PanelId::Suggest:
+            return suggestPanel(view, states.suggest, commands);
     }
 }
 

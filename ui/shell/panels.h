@@ -28,6 +28,7 @@
 #include "ui/panels/paging/paging_panel.h"
 #include "ui/panels/sources/sources_panel.h"
 #include "ui/panels/surface/surface_panel.h"
+#include "ui/panels/sweep/suggest_panel.h"
 #include "ui/panels/sweep/sweep_panel.h"
 #include "ui/panels/trace/trace_findings_panel.h"
 #include "ui/panels/trace/trace_node_panel.h"
@@ -63,6 +64,7 @@ struct PanelStates {
     TimelinePanelState timeline;
     RegionsPanelState regions;
     AtlasPanelState atlas;
+    SuggestPanelState suggest;
 };
 
 // Fills the current window with a panel.

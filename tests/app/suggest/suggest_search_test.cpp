@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -135,6 +136,19 @@ TEST(SuggestSearch, aCostBelowWhatTheRangeReachesIsNotMet) {
     EXPECT_FALSE(found.isMet);
     EXPECT_EQ(found.best.candidate.tauPx, 64);
     EXPECT_FALSE(found.needs.costsMet);
+}
+
+TEST(SuggestSearch, aToleranceThatLeavesNoLessErrorIsNotTaken) {
+    // The data ends at 1 px, so that smaller tolerances draw the same.
+    SuggestPlanted planted;
+    planted.calls.measure = [](SuggestCandidate candidate, SuggestScope) {
+        candidate.tauPx = std::max(candidate.tauPx, 1.0);
+        return planet::Result<SuggestFigures>(plantedFigures(candidate));
+    };
+    const SuggestFound found = planted.search("1 M triangles, 1.5 px");
+    EXPECT_TRUE(found.isMet);
+    EXPECT_GE(found.best.candidate.tauPx, 0.9);
+    EXPECT_LE(found.best.candidate.tauPx, 1);
 }
 
 TEST(SuggestSearch, aBudgetThatWasNotMeasuredIsNotMet) {

@@ -1,0 +1,155 @@
+#include "app/editor/suggest_controller.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/base/log.h"
+#include "app/base/new_file.h"
+#include "app/base/places.h"
+#include "app/data/data_set.h"
+#include "app/editor/settings_controller.h"
+#include "app/session/notices.h"
+#include "app/session/overloaded.h"
+#include "app/session/session.h"
+#include "app/suggest/suggest_files.h"
+#include "app/suggest/suggest_job.h"
+#include "app/suggest/suggest_report.h"
+#include "app/suggest/suggest_run.h"
+#include "planet/base/result.h"
+#include "ui/model/commands.h"
+#include "ui/model/suggest_view.h"
+
+namespace worldy {
+
+namespace {
+
+using planet::Result;
+
+void startSuggest(SuggestController& controller, const ui::StartSuggest& start, const SuggestContext& context,
+                  Notices& notices) {
+    if (!context.open || controller.job) return;
+    SuggestRequest request;
+    request.file = context.open->data.chunkFile;
+    request.colourImage = context.open->data.colourImage;
+    request.budget = start.budget;
+    request.flights = start.flights;
+    if (start.surveys) {
+        constexpr std::uint64_t viewpoints = 300;
+        request.survey.emplace().most = viewpoints;
+    }
+    request.vary = start.vary;
+    request.view = context.settings.settings.view;
+    request.size = start.size;
+    controller.request = request;
+    controller.trials.clear();
+    controller.outcome.reset();
+    controller.problem.clear();
+    controller.cancelled = false;
+    notices.log->info("Searching settings for {}", budgetText(request.budget));
+    controller.job = std::make_unique<SuggestJob>(std::move(request));
+}
+
+void applySuggest(const SuggestController& controller, const SuggestContext& context, Notices& notices) {
+    if (!controller.outcome || !context.open) return;
+    if (!mayChange("Settings", context.replaying, notices.log)) return;
+    const ViewSettings& now = context.settings.settings.view;
+    ViewSettings wanted = settingsToApply(now, *controller.outcome);
+    if (!(wanted == now)) replaceView(context.settings, std::move(wanted), "suggested settings");
+}
+
+// Returns the report's file. The name of the report is taken first, so that nothing is overwritten.
+Result<std::filesystem::path> saveSuggest(SuggestController& controller) {
+    Result<std::filesystem::path> report = newTimedFile(picturesFolder(), localTimeNow(), "suggest", "md");
+    if (!report) return report;
+    const std::filesystem::path folder = report->parent_path();
+    const std::string name = report->stem().string();
+    const SuggestFiles files = suggestFilesIn(folder, name);
+    nameSuggestFiles(controller.request, files.preset, files.regions, *controller.outcome);
+    const auto written = writeSuggestion(*controller.outcome, controller.request, folder, name);
+    if (written) return report;
+    std::error_code status;
+    for (const std::filesystem::path& file : {files.report, files.preset, files.regions, files.page})
+        std::filesystem::remove(file, status);
+    return tl::unexpected(written.error());
+}
+
+}  // namespace
+
+void execute(SuggestController& controller, const ui::SuggestCommand& command, const SuggestContext& context,
+             Notices& notices) {
+    std::visit(
+        Overloaded{
+            [&](const ui::StartSuggest& start) { startSuggest(controller, start, context, notices); },
+            [&](const ui::CancelSuggest&) {
+                if (controller.job) controller.job->cancel();
+            },
+            [&](const ui::ApplySuggest&) { applySuggest(controller, context, notices); },
+            [&](const ui::SaveSuggest&) {
+                if (!controller.outcome) return;
+                const Result<std::filesystem::path> report = saveSuggest(controller);
+                if (!report)
+                    return tellError(notices, {"The suggestion was not saved", report.error().message, ""});
+                confirm(notices,
+                        fmt::format("Suggestion saved: {}, with its preset as .toml and its page as .png",
+                                    report->string()));
+            },
+        },
+        command);
+}
+
+void advanceSuggest(SuggestController& controller, const Log& log) {
+    if (!controller.job) return;
+    std::optional<Result<SuggestOutcome>> result = controller.job->takeResult();
+    std::vector<SuggestTrial> trials = controller.job->takeTrials();
+    controller.trials.insert(controller.trials.end(), trials.begin(), trials.end());
+    if (!result) return;
+    controller.job.reset();
+    if (*result) {
+        controller.outcome = std::move(**result);
+        log->info("{}", verdictText(*controller.outcome));
+        return;
+    }
+    controller.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
+    controller.problem = controller.cancelled ? "The search was cancelled." : result->error().message;
+    log->log(controller.cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
+}
+
+ViewSettings settingsToApply(const ViewSettings& now, const SuggestOutcome& outcome) {
+    ViewSettings view = now;
+    view.lod.tauPx = outcome.settings.lod.tauPx;
+    view.lod.metric = outcome.settings.lod.metric;
+    view.lod.morphRange = outcome.settings.lod.morphRange;
+    view.paging.budgetMB = outcome.settings.paging.budgetMB;
+    view.budget = outcome.settings.budget;
+    if (!outcome.regionsText.empty()) {
+        view.regions.list = outcome.settings.regions.list;
+        view.regions.on = true;
+    }
+    return view;
+}
+
+ui::SuggestView suggestViewOf(const SuggestController& controller, const OpenPlanet* open) {
+    ui::SuggestView view;
+    view.outcome = controller.outcome ? &*controller.outcome : nullptr;
+    view.planet = controller.request.file.filename().string();
+    view.fitsPlanet = open && open->data.chunkFile == controller.request.file;
+    view.budget = controller.request.budget;
+    view.trials = controller.trials;
+    view.problem = controller.problem;
+    if (!controller.job) return view;
+    view.running = true;
+    view.cancelling = controller.job->cancelling();
+    view.progress = controller.job->progress();
+    return view;
+}
+
+}  // namespace worldy

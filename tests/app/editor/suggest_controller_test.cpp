@@ -1,0 +1,41 @@
+#include "app/editor/suggest_controller.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "app/settings/view_settings.h"
+#include "app/suggest/suggest_run.h"
+#include "planet/tree/region.h"
+
+namespace worldy {
+namespace {
+
+TEST(SuggestController, applyingChangesWhatTheSuggestionChoseAndNothingElse) {
+    ViewSettings now;
+    now.lod.hysteresis = 0.3;
+    now.overlay.wireframe = true;
+    now.budget.triangles = 5000;
+    SuggestOutcome outcome;
+    outcome.settings.lod.tauPx = 5;
+    outcome.settings.lod.metric = planet::ErrorMetric::Tight;
+    outcome.settings.lod.morphRange = 0.15;
+    outcome.settings.paging.budgetMB = 64;
+
+    ViewSettings wanted = now;
+    wanted.lod.tauPx = 5;
+    wanted.lod.metric = planet::ErrorMetric::Tight;
+    wanted.lod.morphRange = 0.15;
+    wanted.paging.budgetMB = 64;
+    wanted.budget.triangles = 0;
+    EXPECT_EQ(settingsToApply(now, outcome), wanted);
+
+    const std::vector<planet::Region> regions = {{.name = "suggested places", .tauFactor = 2}};
+    outcome.regionsText = "regions";
+    outcome.settings.regions.list = std::make_shared<const std::vector<planet::Region>>(regions);
+    EXPECT_EQ(settingsToApply(now, outcome).regions.applied(), regions);
+}
+
+}  // namespace
+}  // namespace worldy

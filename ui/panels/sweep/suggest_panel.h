@@ -1,0 +1,31 @@
+// The Suggest panel: finds settings that meet a budget on flights or on the whole planet, shows the candidates, and applies
+// or saves the result.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "app/suggest/suggest_budget.h"
+#include "app/suggest/suggest_vary.h"
+#include "ui/model/commands.h"
+#include "ui/model/editor_view.h"
+
+namespace worldy::ui {
+
+struct SuggestPanelState {
+    // In the order of suggestLimits; memory in MiB. A limit has an effect if it is on.
+    std::array<bool, suggestLimitCount> on{false, true, true, true};
+    std::array<double, suggestLimitCount> limits{16.6, 200'000, 64, 1.5};
+    std::set<std::string> flights;  // files
+    bool hasChosen = false;         // false: the first flight is chosen as soon as there is one
+    bool surveys = false;
+    SuggestVary vary{};
+    std::optional<std::size_t> selected;  // index of a trial
+};
+
+void suggestPanel(const EditorView& view, SuggestPanelState& state, Commands& commands);
+
+}  // namespace worldy::ui
