@@ -49,6 +49,16 @@ Ran disturbed(const TemporaryFolder& folder, const std::string& command) {
                         command + "\nwait $mpirun");
 }
 
+// Returns the bytes of the slow bake by one process that nothing disturbs, which bakes it once for all tests.
+const std::string& bakedAlone() {
+    static const std::string content = [] {
+        const TemporaryFolder folder;
+        EXPECT_EQ(runShell(folder, bake(slowBake)).exitCode, 0);
+        return contentOf(folder / "a.chk");
+    }();
+    return content;
+}
+
 void expectGoesOn(const TemporaryFolder& folder) {
     EXPECT_TRUE(contentOf(folder / "a.chk") == contentOf(folder / "old.chk"));
     const Ran refused = runShell(folder, ranks(2) + bake(slowBake));
@@ -59,8 +69,7 @@ void expectGoesOn(const TemporaryFolder& folder) {
     const auto report = nlohmann::json::parse(resumed.output);
     EXPECT_GT(report["resumed_units"], 0);
     EXPECT_LT(report["resumed_units"], report["units"]);
-    ASSERT_EQ(runShell(folder, "mv a.chk job.chk && " + bake(slowBake)).exitCode, 0);
-    EXPECT_TRUE(contentOf(folder / "a.chk") == contentOf(folder / "job.chk"));
+    EXPECT_TRUE(contentOf(folder / "a.chk") == bakedAlone());
     EXPECT_FALSE(fs::exists(folder / "a.chk.spool"));
 }
 
@@ -119,8 +128,7 @@ TEST(MpiBake, aBakeAloneGoesOnToo) {
     const Ran resumed = runShell(folder, bake(slowBake) + "--resume --json");
     ASSERT_EQ(resumed.exitCode, 0) << resumed.errors;
     EXPECT_GT(nlohmann::json::parse(resumed.output)["resumed_units"], 0);
-    ASSERT_EQ(runShell(folder, "mv a.chk resumed.chk && " + bake(slowBake)).exitCode, 0);
-    EXPECT_TRUE(contentOf(folder / "a.chk") == contentOf(folder / "resumed.chk"));
+    EXPECT_TRUE(contentOf(folder / "a.chk") == bakedAlone());
 }
 
 // The report of a bake predicts bakes on more ranks.

@@ -107,7 +107,7 @@ TEST(BakeEstimate, stopsWhenToldTo) {
 
 TEST(BakeEstimate, coloursAreEstimatedBesideTheHeights) {
     const tests::TemporaryFolder folder;
-    const ColourSource colours = test::mottledColours(1025);
+    const ColourSource colours = test::mottledColours(513);
     for (const ColourFormat format : {ColourFormat::Bc1, ColourFormat::Lossless}) {
         const BakeSettings settings{.faceSize = 65, .chunkSize = 17, .colour = {.format = format}};
         const Result<BakeReport> real = bake(hillsSource(), settings, folder / "real.chk", {}, &colours);
@@ -116,8 +116,8 @@ TEST(BakeEstimate, coloursAreEstimatedBesideTheHeights) {
         ASSERT_TRUE(real && estimate && without);
         ASSERT_TRUE(estimate->colour);
         EXPECT_FALSE(without->colour);
-        EXPECT_EQ(estimate->colour->faceSize, 1025);
-        EXPECT_EQ(estimate->colour->levels, 3);
+        EXPECT_EQ(estimate->colour->faceSize, 513);
+        EXPECT_EQ(estimate->colour->levels, 2);
         EXPECT_EQ(estimate->colour->tiles, real->colourTiles);
         EXPECT_EQ(estimate->colour->residentBytes, real->colourTiles * colourTileBytes(format));
         EXPECT_GT(estimate->colour->seconds, 0);
