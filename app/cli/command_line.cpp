@@ -436,6 +436,16 @@ void addSuggest(CLI::App& command, SuggestOptions& options, SuggestTexts& texts)
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(number(0.1, 1e9));
+    command
+        .add_option("--chunk", options.chunkSizes,
+                    "Chunk sizes that may be suggested too, vertices per side; FILE's source is baked for "
+                    "each into the "
+                    "cache (FILE's own alone)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::vector<int>(planet::chunkSizes.begin(), planet::chunkSizes.end())));
+    command.add_option(
+        "--source", options.source,
+        "Source of FILE, for --chunk, with the options that it was baked with (the terrain that FILE names)");
     command.add_option("--viewpoints", options.viewpoints, "Most viewpoints of the whole planet (600)")
         ->check(CLI::Range(6, 100'000));
     command

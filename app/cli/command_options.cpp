@@ -101,7 +101,7 @@ constexpr std::array<CommandSpec, 22> commandTable = {{
      .about = "Find settings that meet a budget on flights, recordings or the whole planet, and write them "
               "with a report; "
               "exits with 1 if the budget cannot be met",
-     .takes = pictureOptions | takes::mustOutput | takes::ownBudget,
+     .takes = pictureOptions | takes::mustOutput | takes::ownBudget | takes::source,
      .output = "Folder to write to: NAME.toml, NAME.regions.toml, NAME.md and NAME.png"},
     {.name = "replay",
      .about = "Replay a recorded flight without a display and check that every frame matches; with other "

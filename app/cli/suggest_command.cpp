@@ -19,6 +19,9 @@
 #include "app/base/output_file.h"
 #include "app/base/report.h"
 #include "app/base/text.h"
+#include "app/data/bake_progress.h"
+#include "app/data/data_set.h"
+#include "app/measure/sweep_files.h"
 #include "app/scene/offscreen.h"
 #include "app/suggest/suggest_files.h"
 #include "app/suggest/suggest_report.h"
@@ -27,6 +30,7 @@
 #include "app/trace/trace_document.h"
 #include "planet/base/result.h"
 #include "planet/base/try.h"
+#include "planet/format/chunk_file.h"
 
 namespace worldy {
 
@@ -112,6 +116,31 @@ Result<SuggestRequest> requestFor(const SuggestOptions& options) {
     return request;
 }
 
+// Bakes the other chunk sizes.
+Result<std::vector<SuggestBake>> bakesFor(const SuggestOptions& options, const InterruptWatch& watch) {
+    std::vector<SuggestBake> bakes;
+    if (options.chunkSizes.empty()) return bakes;
+    TRY_ASSIGN(const planet::ChunkFile chunks, planet::ChunkFile::open(options.file));
+    std::vector<int> others = options.chunkSizes;
+    std::erase(others, planet::chunkSize(chunks.info().shape));
+    if (!others.empty() && options.source.empty() && sourceOf(chunks.info()).empty()) {
+        return planet::badInput(
+            fmt::format("{}: does not say what it was baked from; expected --source, or no --chunk",
+                        options.file.string()));
+    }
+    TRY_ASSIGN(const SweptFiles swept,
+               sweptFilesOf(options.file, others, options.sourceSettings, options.source));
+    for (const SweptFile& file : swept.files) {
+        TerminalProgress line;
+        TRY(bakeSwept(swept, file, options.sourceSettings, [&](const planet::BakeProgress& progress) {
+            line.show(progress);
+            return !watch.interrupted();
+        }));
+        bakes.push_back({file.chunkSize, file.chunkFile});
+    }
+    return bakes;
+}
+
 void printSuggestion(const SuggestOutcome& outcome, const std::vector<fs::path>& written) {
     fmt::print("{}\n\n{:<18}{:>20}{:>20}{:>20}  {}\n", verdictText(outcome), "budget", "limit", "before",
                "suggested", "verdict");
@@ -129,7 +158,7 @@ void printSuggestion(const SuggestOutcome& outcome, const std::vector<fs::path>&
     fmt::print("{}\n", scopeText(outcome));
     if (const std::string times = frameTimeText(outcome); !times.empty()) fmt::print("{}\n", times);
     if (!outcome.noPictures.empty()) fmt::print("{}\n", outcome.noPictures);
-    fmt::print("{}\n", effortText(outcome));
+    fmt::print("{}\n{}\n", effortText(outcome), chunkSizeText(outcome));
     for (const fs::path& file : written) fmt::print("{}\n", file.string());
 }
 
@@ -158,8 +187,9 @@ Result<bool> suggestTrace(const SuggestOptions& options) {
 
 Result<bool> runSuggestCommand(const SuggestOptions& options) {
     if (isTraceFile(options.file)) return suggestTrace(options);
-    TRY_ASSIGN(const SuggestRequest request, requestFor(options));
+    TRY_ASSIGN(SuggestRequest request, requestFor(options));
     const InterruptWatch watch;
+    TRY_ASSIGN(request.bakes, bakesFor(options, watch));
     SuggestOutcome outcome;
     {
         SuggestLine line;

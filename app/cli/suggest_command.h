@@ -13,6 +13,7 @@
 #include "app/suggest/suggest_run.h"
 #include "planet/base/result.h"
 #include "planet/measure/atlas.h"
+#include "planet/source/height_source.h"
 
 namespace worldy {
 
@@ -24,6 +25,9 @@ struct SuggestOptions {
     SuggestBudget budget;
     std::vector<std::filesystem::path> flights;
     std::vector<std::filesystem::path> recordings;
+    std::vector<int> chunkSizes;   // that may be baked and suggested; empty: the file's alone
+    std::filesystem::path source;  // of these bakes; empty: the one that the file names
+    planet::HeightSourceSettings sourceSettings{};
     std::vector<double>
         altitudesM;  // of viewpoints; empty: none, or the usual ones if nothing else is measured
     int viewpoints = 600;

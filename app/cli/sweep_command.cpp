@@ -11,8 +11,8 @@
 #include "app/base/picture_file.h"
 #include "app/base/report.h"
 #include "app/data/bake_progress.h"
-#include "app/data/data_set.h"
 #include "app/flight/flight_path_file.h"
+#include "app/measure/sweep_files.h"
 #include "app/measure/sweep_plot.h"
 #include "app/measure/sweep_run.h"
 #include "app/settings/settings.h"
@@ -37,29 +37,6 @@ Result<std::vector<int>> wantedSizes(const SweepOptions& options) {
     return std::vector{planet::chunkSize(file->info().shape)};
 }
 
-// The source and the settings of the bake for a chunk size. A chunk file of that size needs no bake; for
-// another size they are the file's recorded source, radius and face size.
-struct Baked {
-    std::filesystem::path source;
-    planet::BakeSettings settings;
-};
-Result<Baked> bakedFor(const SweepOptions& options, int chunkSize) {
-    Baked baked{options.file, {}};
-    baked.settings.chunkSize = chunkSize;
-    if (options.file.extension() != ".chk" || planet::isTerrainText(options.file)) return baked;
-    const Result<planet::ChunkFile> file = planet::ChunkFile::open(options.file);
-    if (!file) return tl::unexpected(file.error());
-    const planet::ChunkFileInfo& info = file->info();
-    const std::filesystem::path source = sourceOf(info);
-    if (chunkSize == planet::chunkSize(info.shape) || source.empty()) return baked;
-    baked.source = source;
-    baked.settings.faceSize = planet::faceCells(info.shape) + 1;
-    baked.settings.radiusM = info.shape.radiusM;
-    baked.settings.quantumM = fileQuantumM(info.shape);
-    if (info.shape.fractionBits > 0) baked.settings.finestQuantumM = info.shape.quantumM;
-    return baked;
-}
-
 Result<SweepPlan> planOf(const SweepOptions& options) {
     const Result<std::vector<int>> sizes = wantedSizes(options);
     if (!sizes) return tl::unexpected(sizes.error());
@@ -72,15 +49,10 @@ Result<SweepPlan> planOf(const SweepOptions& options) {
                    .goal = options.goal,
                    .size = options.size,
                    .view = options.view};
-    for (const int chunkSize : *sizes) {
-        const Result<Baked> baked = bakedFor(options, chunkSize);
-        if (!baked) return tl::unexpected(baked.error());
-        const Result<DataSet> data =
-            findDataSet(baked->source, baked->settings, options.sourceSettings, sweptColour);
-        if (!data) return tl::unexpected(data.error());
-        if (data->needsBake) plan.source = data->source;
-        plan.files.push_back({chunkSize, data->chunkFile, data->needsBake, data->settings});
-    }
+    Result<SweptFiles> swept = sweptFilesOf(options.file, *sizes, options.sourceSettings);
+    if (!swept) return tl::unexpected(swept.error());
+    plan.source = std::move(swept->source);
+    plan.files = std::move(swept->files);
     return plan;
 }
 

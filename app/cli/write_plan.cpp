@@ -202,6 +202,7 @@ CommandFiles filesOf(const SuggestOptions& options) {
     addChunkFile(files, options.file);
     for (const auto* inputs : {&options.flights, &options.recordings})
         files.inputs.insert(files.inputs.end(), inputs->begin(), inputs->end());
+    addSource(files, options.source);
     files.inputs.push_back(options.view.regions.file);
     addLayerFiles(files, options.view);
     const SuggestFiles outputs = suggestFilesIn(options.output, options.name);

@@ -7,6 +7,7 @@
 
 #include "app/flight/flight_path.h"
 #include "app/flight/flight_path_file.h"
+#include "app/measure/sweep_files.h"
 #include "app/scene/offscreen.h"
 #include "planet/format/chunk_file.h"
 
@@ -25,20 +26,6 @@ ViewSettings sweptSettings(ViewSettings settings) {
     settings.paging.badDisk = {};
     settings.paging.simulated = false;
     return settings;
-}
-
-Result<void> bakeIfNeeded(const SweepPlan& plan, const SweptFile& file, const SweepWatcher& watcher) {
-    // Another process may have baked it in the meantime.
-    if (!file.needsBake || planet::ChunkFile::open(file.chunkFile)) return {};
-    std::error_code problem;
-    std::filesystem::create_directories(file.chunkFile.parent_path(), problem);  // the bake reports a failure
-    return planet::openHeightSource(plan.source, plan.sourceSettings)
-        .and_then([&](const planet::HeightSource& source) {
-            return planet::bake(source, file.bake, file.chunkFile, [&](const planet::BakeProgress& progress) {
-                return watcher.baking(file.chunkSize, progress);
-            });
-        })
-        .map([](const auto&) {});
 }
 
 // The open planet of one chunk size.
@@ -116,7 +103,11 @@ Result<void> runSweepPlan(const SweepPlan& wanted, const SweepWatcher& watcher) 
     const Result<FlightPath> path = loadFlightPath(plan.flight);
     if (!path) return tl::unexpected(path.error());
     for (const SweptFile& file : plan.files) {
-        if (Result<void> baked = bakeIfNeeded(plan, file, watcher); !baked) return baked;
+        const auto baking = [&](const planet::BakeProgress& progress) {
+            return watcher.baking(file.chunkSize, progress);
+        };
+        if (Result<void> baked = bakeSwept({plan.source, {}}, file, plan.sourceSettings, baking); !baked)
+            return baked;
         Result<SweptPlanet> planet = openSwept(plan, file);
         if (!planet) return tl::unexpected(planet.error());
         if (plan.goal) return suggest(*planet, file.chunkSize, plan, *path, watcher);

@@ -7,23 +7,13 @@
 #include <vector>
 
 #include "app/measure/sweep.h"
+#include "app/measure/sweep_files.h"
 #include "app/measure/sweep_table.h"
 #include "app/settings/camera_text.h"
 #include "planet/bake/bake.h"
 #include "planet/source/height_source.h"
 
 namespace worldy {
-
-// The colour image for the bakes of a sweep. It is empty, because sweeps neither load nor draw colours.
-inline const std::filesystem::path sweptColour{};
-
-// The chunk file of one chunk size.
-struct SweptFile {
-    int chunkSize = 33;
-    std::filesystem::path chunkFile;
-    bool needsBake = false;  // the file does not exist yet
-    planet::BakeSettings bake{};
-};
 
 struct SweepPlan {
     std::filesystem::path source;  // source of the bakes; unused if none is needed

@@ -61,7 +61,7 @@ struct LegValues {
 struct Measuring {
     planet::Planet& planet;
     const ViewSettings settings;
-    const FrameCost* cost;
+    const std::optional<FrameCost>& cost;
     const std::function<bool(double)>& goOn;
     double lateChunks = 0, drawnChunks = 0;
     planet::PopTotals pops{};
@@ -146,7 +146,7 @@ struct Measuring {
             if (i == 0) {
                 before = settle(frame);
                 const planet::gl::RenderSettings render = renderSettingsOf(settings, before, planet.tree());
-                // As with a GPU, so that pops are the same on any machine.
+                // The sea is drawn as with a GPU, so that pops are the same on any machine.
                 if (planet::gl::isSeaSurfaceDrawn(render, /*software=*/false)) seaM = render.seaLevelM;
             }
             const planet::View view = i == 0 ? before : viewOfFrame(frame);
@@ -333,8 +333,8 @@ double drawnErrorPx(const planet::ChunkTree& tree, const planet::Selection& sele
 }
 
 SuggestMeter::SuggestMeter(std::unique_ptr<planet::Planet> planet, ViewSettings now,
-                           std::vector<SuggestLeg> legs, const FrameCost* cost)
-    : planet_(std::move(planet)), now_(std::move(now)), legs_(std::move(legs)), cost_(cost) {}
+                           std::vector<SuggestLeg> legs, std::optional<FrameCost> cost)
+    : planet_(std::move(planet)), now_(std::move(now)), legs_(std::move(legs)), cost_(std::move(cost)) {}
 
 Result<void> SuggestMeter::apply(const ViewSettings& settings) {
     planet_->tools().reset();

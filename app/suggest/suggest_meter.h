@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ struct SuggestWorst {
     double value = 0;
 };
 
-// What a measurement says besides its figures.
+// The figures of a measurement, and what they come from.
 struct SuggestMeasured {
     SuggestFigures figures;
     std::vector<SuggestValues> byLeg;  // at the percentile, in the order of the legs
@@ -83,10 +84,10 @@ double drawnErrorPx(const planet::ChunkTree& tree, const planet::Selection& sele
 // Measures with one planet, one candidate after the other. One thread at a time.
 class SuggestMeter {
 public:
-    // now: settings that do not vary; its budgets of the governor count as off. cost: may be null, then frame times are
-    // not known.
+    // now: settings that do not vary; its budgets of the governor count as off. cost: without one, frame times are not
+    // known.
     SuggestMeter(std::unique_ptr<planet::Planet> planet, ViewSettings now, std::vector<SuggestLeg> legs,
-                 const FrameCost* cost);
+                 std::optional<FrameCost> cost);
 
     // goOn is called for each frame with the share that is done, [0, 1]. Returning false ends with an Error of kind
     // Cancelled. Other Errors are of settings that the planet refuses.
@@ -106,7 +107,7 @@ private:
     std::unique_ptr<planet::Planet> planet_;
     ViewSettings now_;
     std::vector<SuggestLeg> legs_;
-    const FrameCost* cost_;
+    std::optional<FrameCost> cost_;
 };
 
 }  // namespace worldy

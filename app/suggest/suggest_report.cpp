@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -93,6 +94,7 @@ Json candidateJson(const SuggestCandidate& candidate) {
             {"metric", metricName(candidate.metric)},
             {"morph_range", candidate.morphRange},
             {"paging_budget_mib", candidate.memoryMiB},
+            {"chunk_size", candidate.chunkSize > 0 ? Json(candidate.chunkSize) : Json(nullptr)},
             {"regions", candidate.plan}};
 }
 
@@ -112,6 +114,7 @@ std::vector<SuggestRow> rowsOf(const SuggestOutcome& outcome) {
 std::string candidateText(const SuggestCandidate& candidate, std::string_view tau) {
     std::string text = fmt::format("{} {:.3g} px, {}, morph range {:g}, {} MiB", tau, candidate.tauPx,
                                    metricName(candidate.metric), candidate.morphRange, candidate.memoryMiB);
+    if (candidate.chunkSize > 0) text += fmt::format(", chunks of {}", candidate.chunkSize);
     if (!candidate.regions.empty())
         text += fmt::format(", {} x {:g}", candidate.plan, candidate.regions.front().tauFactor.value_or(1));
     return text;
@@ -174,9 +177,22 @@ std::string frameTimeText(const SuggestOutcome& outcome) {
                               outcome.drawnFrames.size(), limitText(SuggestLimit::FrameMs, worst));
 }
 
+std::string chunkSizeText(const SuggestOutcome& outcome) {
+    const int chunkSize = outcome.found.best.candidate.chunkSize;
+    const bool varies = std::ranges::any_of(
+        outcome.found.trials, [](const SuggestTrial& trial) { return trial.candidate.chunkSize > 0; });
+    if (chunkSize > 0)
+        return fmt::format(
+            "The suggestion needs another bake, with --chunk-size {}; it was measured with {}.", chunkSize,
+            outcome.file.string());
+    if (varies) return "Other chunk sizes were measured too, and are not better.";
+    return "The chunk size was not varied, because another one needs another bake.";
+}
+
 std::string methodText(const SuggestOutcome& outcome) {
     const std::string times = frameTimeText(outcome);
-    return fmt::format("{} {}{}{}", scopeText(outcome), times, times.empty() ? "" : " ", effortText(outcome));
+    return fmt::format("{} {}{}{} {}", scopeText(outcome), times, times.empty() ? "" : " ",
+                       effortText(outcome), chunkSizeText(outcome));
 }
 
 std::vector<SuggestEffect> effectsOf(const SuggestOutcome& outcome) {
@@ -234,7 +250,6 @@ std::string suggestMarkdown(const SuggestOutcome& outcome, const SuggestRequest&
     for (const SuggestPlace& place : outcome.places)
         text += fmt::format("- {}, on {}: `{}`\n", placeCaption(place), place.leg, place.line);
     text += fmt::format("\n## How it was measured\n\n{}\n", methodText(outcome));
-    text += "The chunk size was not varied, because another one needs another bake.\n";
     if (outcome.settings.paging.badDisk.latencyMs == 0 && outcome.settings.paging.badDisk.bandwidthMBs == 0)
         text += "Data arrived without delay, because the settings simulate no disk.\n";
     else

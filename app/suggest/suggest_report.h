@@ -31,7 +31,9 @@ std::string verdictText(const SuggestOutcome& outcome);
 std::string scopeText(const SuggestOutcome& outcome);
 std::string effortText(const SuggestOutcome& outcome);
 std::string frameTimeText(const SuggestOutcome& outcome);
-// Returns the last three together.
+// Returns whether chunk sizes were tried, and which bake is suggested.
+std::string chunkSizeText(const SuggestOutcome& outcome);
+// Returns the last four together.
 std::string methodText(const SuggestOutcome& outcome);
 // Returns what it costs and leaves besides the budgets, before and after.
 struct SuggestEffect {

@@ -165,17 +165,17 @@ ViewSettings drawnSettings(ViewSettings settings) {
     return settings;
 }
 
-Result<Offscreen> openDrawn(const SuggestRequest& request, const ViewSettings& settings) {
-    return openOffscreen({.chunkFile = request.file, .colourImage = request.colourImage}, settings,
-                         request.size, 1);
+Result<Offscreen> openDrawn(const SuggestRequest& request, const fs::path& file,
+                            const ViewSettings& settings) {
+    return openOffscreen({.chunkFile = file, .colourImage = request.colourImage}, settings, request.size, 1);
 }
 
-Result<std::optional<FrameCost>> frameCostOf(const SuggestRequest& request,
+Result<std::optional<FrameCost>> frameCostOf(const SuggestRequest& request, const fs::path& file,
                                              const std::vector<SuggestLeg>& legs, SuggestClock& clock) {
     if (request.cost || !request.budget[SuggestLimit::FrameMs]) return request.cost;
     clock.enter(SuggestStage::Timing);
     const ViewSettings settings = drawnSettings(settingsWith(request.view, candidateOf(request.view)));
-    Result<Offscreen> offscreen = openDrawn(request, settings);
+    Result<Offscreen> offscreen = openDrawn(request, file, settings);
     if (!offscreen) {
         return planet::badInput(fmt::format(
             "frame times cannot be measured here: {}; expected OpenGL, a --frame-cost, or no budget in ms",
@@ -203,6 +203,7 @@ SuggestRanges rangesOf(const SuggestRequest& request) {
                          .metrics = {now.metric},
                          .morphRanges = {now.morphRange},
                          .memoriesMiB = {now.memoryMiB}};
+    for (const SuggestBake& bake : request.bakes) ranges.chunkSizes.push_back(bake.chunkSize);
     if (request.vary.metric)
         ranges.metrics = firstThen(now.metric, {planet::ErrorMetric::Additive, planet::ErrorMetric::Tight});
     if (request.vary.morph && request.view.lod.morph)
@@ -218,16 +219,54 @@ SuggestRanges rangesOf(const SuggestRequest& request) {
     return ranges;
 }
 
+// A chunk file that is measured.
+struct MeteredFile {
+    int chunkSize = 0;  // as in candidates: 0 for the file of the request
+    fs::path file;
+    std::optional<FrameCost> cost;  // of a frame, for each chunk size its own
+    std::unique_ptr<SuggestMeter> meter;
+};
+
+Result<MeteredFile> meteredFile(const SuggestRequest& request, const SuggestBake& bake,
+                                const std::vector<SuggestLeg>& legs, SuggestClock& clock) {
+    MeteredFile metered{bake.chunkSize, bake.file, {}, {}};
+    TRY_ASSIGN(metered.cost, frameCostOf(request, bake.file, legs, clock));
+    const ViewSettings now = settingsWith(request.view, candidateOf(request.view));
+    TRY_ASSIGN(auto planet,
+               planet::Planet::open(bake.file, pagingSettingsOf(now, false, planet::PagingTime::Simulated)));
+    metered.meter = std::make_unique<SuggestMeter>(std::move(planet), request.view, legs, metered.cost);
+    return metered;
+}
+
+// Another bake must be of the same planet: as large, and between the same heights.
+Result<void> checkSamePlanet(const planet::ChunkFile& chunks, const fs::path& file) {
+    TRY_ASSIGN(const planet::ChunkFile other, planet::ChunkFile::open(file));
+    const planet::PlanetShape& a = chunks.info().shape;
+    const planet::PlanetShape& b = other.info().shape;
+    const double slackM = 2 * std::max(fileQuantumM(a), fileQuantumM(b));
+    const auto differs = [&](std::int32_t one, std::int32_t two) {
+        return std::abs(planet::heightM(a, one) - planet::heightM(b, two)) > slackM;
+    };
+    if (a.radiusM == b.radiusM && planet::faceCells(a) == planet::faceCells(b) &&
+        !differs(chunks.info().minStep, other.info().minStep) &&
+        !differs(chunks.info().maxStep, other.info().maxStep))
+        return {};
+    return planet::badInput(fmt::format(
+        "{}: is not a bake of the same planet; expected the options for its source with which it was baked",
+        file.string()));
+}
+
 // The measurements of the search, and those of its whole candidates.
 class SuggestMeasurer {
 public:
-    SuggestMeasurer(SuggestMeter& meter, const SuggestRequest& request, SuggestClock& clock)
-        : meter_(meter), request_(request), clock_(clock) {}
+    SuggestMeasurer(const std::vector<MeteredFile>& files, const SuggestRequest& request, SuggestClock& clock)
+        : files_(files), request_(request), clock_(clock) {}
 
     Result<SuggestFigures> measure(const SuggestCandidate& candidate, SuggestScope scope) {
         clock_.begin(candidate, scope);
-        TRY_ASSIGN(SuggestMeasured measured,
-                   meter_.measure(candidate, scope, [&](double share) { return clock_.goOn(share); }));
+        TRY_ASSIGN(SuggestMeasured measured, meterOf(candidate).measure(candidate, scope, [&](double share) {
+            return clock_.goOn(share);
+        }));
         clock_.end();
         const SuggestFigures figures = measured.figures;
         if (scope == SuggestScope::Whole) wholes_.emplace_back(candidate, std::move(measured));
@@ -249,11 +288,11 @@ public:
         for (const SuggestWorst& worst : measured->worst[static_cast<std::size_t>(*binds)]) {
             // Frames far below the limit cost as much as the rest of the planet.
             if (worst.value < 0.8 * *request_.budget[*binds]) continue;
-            auto ground = meter_.groundIn(candidate, worst.view);
+            auto ground = meterOf(candidate).groundIn(candidate, worst.view);
             if (ground) frames.push_back(std::move(*ground));
         }
         const std::vector<planet::Region> taken = request_.view.regions.all();
-        return plansOver(frames, meter_.planet().tree().shape.radiusM, taken);
+        return plansOver(frames, meterOf(candidate).planet().tree().shape.radiusM, taken);
     }
 
 private:
@@ -262,7 +301,11 @@ private:
         return budget;
     }
 
-    SuggestMeter& meter_;
+    SuggestMeter& meterOf(const SuggestCandidate& candidate) const {
+        return *std::ranges::find(files_, candidate.chunkSize, &MeteredFile::chunkSize)->meter;
+    }
+
+    const std::vector<MeteredFile>& files_;
     const SuggestRequest& request_;
     SuggestClock& clock_;
     std::vector<std::pair<SuggestCandidate, SuggestMeasured>> wholes_;
@@ -295,7 +338,7 @@ Result<void> readBack(const SuggestRequest& request, const ViewSettings& suggest
 std::string showLine(const SuggestRequest& request, const SuggestOutcome& outcome,
                      const planet::CameraPose& pose) {
     std::string line =
-        fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", shellWord(request.file.string()),
+        fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", shellWord(outcome.file.string()),
                     cameraText(roundedPose(pose)), request.size.widthPx, request.size.heightPx);
     if (!request.presetFile.empty()) line += " --settings " + shellWord(request.presetFile.string());
     if (!outcome.settings.regions.file.empty())
@@ -314,7 +357,7 @@ std::vector<SuggestPlace> placesOf(const SuggestRequest& request, const std::vec
                 {limit, worst[i].value, legs[worst[i].leg].name, pose, showLine(request, outcome, pose), {}});
         }
     };
-    // What it leaves comes first, then what it costs most.
+    // The places with the largest error come first, then those that cost most.
     add(SuggestLimit::ErrorPx);
     SuggestBudget costs = request.budget;
     costs[SuggestLimit::ErrorPx].reset();
@@ -332,7 +375,7 @@ Result<void> draw(const SuggestRequest& request, const std::vector<SuggestLeg>& 
     }
     clock.enter(SuggestStage::Drawing);
     const ViewSettings settings = drawnSettings(outcome.settings);
-    Result<Offscreen> offscreen = openDrawn(request, settings);
+    Result<Offscreen> offscreen = openDrawn(request, outcome.file, settings);
     if (!offscreen) {
         outcome.noPictures =
             fmt::format("There are no pictures, because OpenGL is not there: {}.", offscreen.error().message);
@@ -398,24 +441,26 @@ Result<SuggestOutcome> runSuggest(const SuggestRequest& request, const SuggestWa
     // 1. Open the planet, and collect what to measure.
     if (request.budget.isEmpty()) return planet::badInput("there is no budget; expected at least one");
     TRY_ASSIGN(const planet::ChunkFile chunks, planet::ChunkFile::open(request.file));
-    TRY_ASSIGN(std::vector<SuggestLeg> legs, legsOf(request, chunks, clock));
+    TRY_ASSIGN(const std::vector<SuggestLeg> legs, legsOf(request, chunks, clock));
 
     // 2. Find what a frame takes here.
     SuggestOutcome outcome;
     outcome.budget = request.budget;
-    TRY_ASSIGN(outcome.cost, frameCostOf(request, legs, clock));
+    std::vector<SuggestBake> bakes = request.bakes;
+    bakes.insert(bakes.begin(), {0, request.file});
+    std::vector<MeteredFile> files;
+    for (const SuggestBake& bake : bakes) {
+        TRY(checkSamePlanet(chunks, bake.file));
+        TRY_ASSIGN(MeteredFile metered, meteredFile(request, bake, legs, clock));
+        files.push_back(std::move(metered));
+    }
 
     // 3. Search.
     clock.enter(SuggestStage::Searching);
     const SuggestCandidate now = candidateOf(request.view);
     outcome.before = settingsWith(request.view, now);
-    TRY_ASSIGN(auto planet,
-               planet::Planet::open(request.file,
-                                    pagingSettingsOf(outcome.before, false, planet::PagingTime::Simulated)));
-    outcome.radiusM = planet->tree().shape.radiusM;
-    SuggestMeter meter(std::move(planet), request.view, std::move(legs),
-                       outcome.cost ? &*outcome.cost : nullptr);
-    SuggestMeasurer measurer(meter, request, clock);
+    outcome.radiusM = chunks.info().shape.radiusM;
+    SuggestMeasurer measurer(files, request, clock);
     const SuggestCalls calls{
         .measure = [&](const SuggestCandidate& candidate,
                        SuggestScope scope) { return measurer.measure(candidate, scope); },
@@ -431,21 +476,24 @@ Result<SuggestOutcome> runSuggest(const SuggestRequest& request, const SuggestWa
     // 4. Read back what would be written, and measure that.
     clock.enter(SuggestStage::Verifying);
     TRY(readBack(request, settingsWith(request.view, outcome.found.best.candidate), outcome));
+    const MeteredFile& best =
+        *std::ranges::find(files, outcome.found.best.candidate.chunkSize, &MeteredFile::chunkSize);
+    outcome.file = best.file;
+    outcome.cost = best.cost;
     TRY_ASSIGN(auto reopened,
                planet::Planet::open(
-                   request.file, pagingSettingsOf(outcome.settings, false, planet::PagingTime::Simulated)));
-    SuggestMeter again(std::move(reopened), outcome.settings, meter.legs(),
-                       outcome.cost ? &*outcome.cost : nullptr);
+                   best.file, pagingSettingsOf(outcome.settings, false, planet::PagingTime::Simulated)));
+    SuggestMeter again(std::move(reopened), outcome.settings, legs, best.cost);
     TRY_ASSIGN(outcome.measured, again.measure(candidateOf(outcome.settings), SuggestScope::Whole,
                                                [&](double share) { return clock.goOn(share); }));
-    for (const SuggestLeg& leg : meter.legs()) {
+    for (const SuggestLeg& leg : legs) {
         outcome.legs.push_back(leg.name);
         outcome.frames.push_back(leg.frames.size());
     }
 
     // 5. Look at the worst places.
-    outcome.places = placesOf(request, meter.legs(), outcome);
-    TRY(draw(request, meter.legs(), clock, outcome));
+    outcome.places = placesOf(request, legs, outcome);
+    TRY(draw(request, legs, clock, outcome));
     outcome.isMet = mostUse(outcome.budget, outcome.measured.figures.values) <= 1;
     outcome.elapsedS = elapsed.elapsedMs() / 1000;
     return outcome;

@@ -24,8 +24,15 @@
 
 namespace worldy {
 
+// A bake of the same source with another chunk size.
+struct SuggestBake {
+    int chunkSize = 33;  // vertices per side
+    std::filesystem::path file;
+};
+
 struct SuggestRequest {
-    std::filesystem::path file;  // the chunk file
+    std::filesystem::path file;        // the chunk file
+    std::vector<SuggestBake> bakes{};  // that may be suggested instead
     std::filesystem::path colourImage{};
     SuggestBudget budget;
     std::vector<std::filesystem::path> flights{};     // .toml or .flight: the path of the camera
@@ -39,7 +46,7 @@ struct SuggestRequest {
     std::size_t worst = 2;  // places of each budget
     PictureSize size;
     ViewSettings view;
-    // Where the suggestion would be written, for the commands in the report. The files are not touched.
+    // The files that the suggestion will be written to; the commands in the report name them. They are not touched.
     std::filesystem::path presetFile{};
     std::filesystem::path regionsFile{};
 };
@@ -63,8 +70,9 @@ struct SuggestOutcome {
     std::string regionsText;  // all regions of the planet with the suggested ones; empty if none is suggested
     std::vector<SettingDifference> changes;
     SuggestMeasured beforeMeasured;
-    SuggestMeasured measured;  // of the settings that were read back
-    bool isMet = false;        // by that measurement
+    SuggestMeasured measured;    // of the settings that were read back
+    bool isMet = false;          // by that measurement
+    std::filesystem::path file;  // the chunk file that is suggested: that of the request, or one of its bakes
     std::vector<std::string> legs;
     std::vector<std::size_t> frames;  // by leg
     std::optional<FrameCost> cost;

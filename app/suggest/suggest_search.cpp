@@ -221,30 +221,42 @@ private:
 
     std::size_t expectedSamples() const {
         const std::size_t one = ranges_.variesTau ? samplesOfOne : 1;
-        return one * ranges_.metrics.size() * ranges_.morphRanges.size() * ranges_.memoriesMiB.size();
+        return one * ranges_.metrics.size() * ranges_.morphRanges.size() * ranges_.memoriesMiB.size() *
+               ranges_.chunkSizes.size();
     }
     void tellAhead(std::size_t samples, std::size_t wholes) const {
         if (calls_.ahead) calls_.ahead(samples, wholes);
+    }
+
+    // Returns the choices of all but τ, that of now first.
+    std::vector<SuggestCandidate> choices(const SuggestCandidate& now) const {
+        std::vector<SuggestCandidate> all;
+        SuggestCandidate candidate = now;
+        for (const int chunkSize : ranges_.chunkSizes) {
+            candidate.chunkSize = chunkSize;
+            for (const planet::ErrorMetric metric : ranges_.metrics) {
+                candidate.metric = metric;
+                for (const double morphRange : ranges_.morphRanges) {
+                    candidate.morphRange = morphRange;
+                    for (const int memoryMiB : ranges_.memoriesMiB) {
+                        candidate.memoryMiB = memoryMiB;
+                        all.push_back(candidate);
+                    }
+                }
+            }
+        }
+        return all;
     }
 
     // Returns the best trials on the sample, one of each choice, the best first.
     Result<std::vector<SuggestTrial>> sampled(const SuggestCandidate& now) {
         std::vector<SuggestTrial> all;
         double guessPx = now.tauPx;
-        for (const planet::ErrorMetric metric : ranges_.metrics) {
-            for (const double morphRange : ranges_.morphRanges) {
-                for (const int memoryMiB : ranges_.memoriesMiB) {
-                    SuggestCandidate candidate = now;
-                    candidate.metric = metric;
-                    candidate.morphRange = morphRange;
-                    candidate.memoryMiB = memoryMiB;
-                    TRY_ASSIGN(
-                        const SuggestTrial trial,
-                        searchOf(candidate, SuggestScope::Sample).find(guessPx, all.empty() ? 2 : 1.3));
-                    guessPx = trial.candidate.tauPx;
-                    all.push_back(trial);
-                }
-            }
+        for (const SuggestCandidate& candidate : choices(now)) {
+            TRY_ASSIGN(const SuggestTrial trial,
+                       searchOf(candidate, SuggestScope::Sample).find(guessPx, all.empty() ? 2 : 1.3));
+            guessPx = trial.candidate.tauPx;
+            all.push_back(trial);
         }
         // Selection by comparisons, because isBetter is no strict order: it ignores small differences.
         std::vector<SuggestTrial> chosen;

@@ -23,6 +23,7 @@ struct SuggestCandidate {
     planet::ErrorMetric metric = planet::ErrorMetric::Additive;
     double morphRange = 0.3;
     int memoryMiB = 256;                    // budget of the paging
+    int chunkSize = 0;                      // vertices per side; 0: that of the file
     std::string plan{};                     // what the regions are: "places"; empty without any
     std::vector<planet::Region> regions{};  // besides those that the planet has
 
@@ -61,6 +62,7 @@ struct SuggestRanges {
     std::vector<planet::ErrorMetric> metrics;
     std::vector<double> morphRanges;
     std::vector<int> memoriesMiB;
+    std::vector<int> chunkSizes{0};
 };
 
 // Regions to try, with the factor on τ still open.
@@ -79,7 +81,7 @@ struct SuggestCalls {
     std::function<void(std::size_t samples, std::size_t wholes)> ahead{};
 };
 
-// What would meet the budget if τ alone were to decide, for a budget that cannot be met.
+// The trials that would meet a part of a budget that cannot be met, if τ alone were to decide.
 struct SuggestNeeds {
     std::optional<SuggestTrial> costsMet;  // the least error within the budgets of costs
     std::optional<SuggestTrial> errorMet;  // the least costs within the budget of the error

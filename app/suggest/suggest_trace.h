@@ -16,7 +16,7 @@ namespace worldy {
 struct SuggestedForTrace {
     SuggestBudget budget;
     planet::TraceTauSuggestion found;
-    // What the engine did with its own settings, the largest of all views.
+    // The costs and the error of the engine with its own settings, the largest of all views.
     std::uint64_t engineTriangles = 0;
     std::uint64_t engineBytes = 0;
     double engineErrorPx = 0;  // NaN: not known

@@ -1,4 +1,4 @@
-// What a suggestion may vary.
+// Says which settings a suggestion may vary.
 #pragma once
 
 #include <array>

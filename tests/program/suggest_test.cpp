@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -100,6 +101,32 @@ TEST_F(SuggestCommand, BadInputIsNamed) {
     EXPECT_THAT(problem("--budget '3 px' -o . --name taken"), HasSubstr("taken.md: exists and is not"));
     EXPECT_EQ(file("taken.md"), "# My notes\n");
     EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(SuggestCommand, AnotherChunkSizeIsBakedOnlyIfItIsAskedFor) {
+    const std::string common =
+        "--budget '15 k triangles, 40 px' --flight down.toml --vary tau --no-pictures --json "
+        "--set lod.tau_px=0.3 -o out ";
+    const Ran ran = suggest(common + "--chunk 17,33 --source hills.pgm --metres-per-unit 20");
+    ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+    const nlohmann::json report = nlohmann::json::parse(ran.output);
+    const auto has = [&](const nlohmann::json& size) {
+        return std::ranges::any_of(report["trials"],
+                                   [&](const auto& trial) { return trial["chunk_size"] == size; });
+    };
+    EXPECT_TRUE(has(nullptr));
+    EXPECT_TRUE(has(33));
+    EXPECT_FALSE(has(17));  // the file's own
+    if (!report["suggested"]["chunk_size"].is_null()) {
+        EXPECT_THAT(file("out/suggested.md"), HasSubstr("needs another bake, with --chunk-size 33"));
+    }
+
+    const Ran other = suggest(common + "--chunk 33 --source hills.pgm --metres-per-unit 21");
+    EXPECT_EQ(other.exitCode, 2);
+    EXPECT_THAT(other.errors, HasSubstr("is not a bake of the same planet"));
+    const Ran none = suggest(common + "--chunk 33");
+    EXPECT_EQ(none.exitCode, 2);
+    EXPECT_THAT(none.errors, HasSubstr("expected --source"));
 }
 
 TEST_F(SuggestCommand, ATraceGetsATauWhereItsDataAllow) {

@@ -110,6 +110,19 @@ TEST(SuggestSearch, theMetricAndTheMorphWithLessErrorWin) {
     EXPECT_NEAR(found.best.candidate.tauPx, 4 * 2.0 / 3, 0.06);
 }
 
+TEST(SuggestSearch, aChunkSizeWithLessErrorWins) {
+    SuggestPlanted planted;
+    planted.ranges.chunkSizes = {0, 17, 65};
+    planted.calls.measure = [](const SuggestCandidate& candidate, SuggestScope) {
+        SuggestFigures figures = plantedFigures(candidate);
+        figures.values[1] *= candidate.chunkSize == 17 ? 0.5 : candidate.chunkSize == 65 ? 2 : 1;
+        return planet::Result<SuggestFigures>(figures);
+    };
+    const SuggestFound found = planted.search("100 k triangles");
+    EXPECT_EQ(found.best.candidate.chunkSize, 17);
+    EXPECT_NEAR(found.best.candidate.tauPx, 2, 0.05);
+}
+
 TEST(SuggestSearch, whatIsNoBetterStaysAsItIs) {
     SuggestPlanted planted;
     planted.ranges.memoriesMiB = {256, 64};
