@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -204,6 +205,11 @@ Result<bool> runSuggestCommand(const SuggestOptions& options) {
         fmt::print("{}", jsonText(suggestJson(outcome, request)));
     else
         printSuggestion(outcome, written);
+    std::error_code unknown;
+    if (outcome.regionsText.empty() && fs::exists(request.regionsFile, unknown)) {
+        fmt::print(stderr, "{}: is of an earlier suggestion; this one has no regions\n",
+                   request.regionsFile.string());
+    }
     return outcome.isMet;
 }
 

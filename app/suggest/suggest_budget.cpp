@@ -102,7 +102,7 @@ Result<SuggestBudget> suggestBudgetFromText(std::string_view text) {
             problems.push_back(read.error().message);
         } else if (budget[read->limit]) {
             problems.push_back(fmt::format("\"{}\" limits {} a second time; expected each budget once", part,
-                                           textOf(read->limit).key));
+                                           textOf(read->limit).noun));
         } else {
             budget[read->limit] = read->value;
         }

@@ -209,9 +209,12 @@ std::vector<SuggestEffect> effectsOf(const SuggestOutcome& outcome) {
 }
 
 std::string placeCaption(const SuggestPlace& place) {
-    return fmt::format("{} {} at {}, {} up", textOf(place.limit).name, limitText(place.limit, place.value),
-                       placeText(place.pose.latitudeDeg, place.pose.longitudeDeg, 2),
-                       distanceText(place.pose.altitudeM));
+    const std::string value = limitText(place.limit, place.value);
+    return fmt::format(
+        "{} at {}, {} up",
+        place.limit == SuggestLimit::Triangles ? value
+                                               : fmt::format("{} {}", textOf(place.limit).name, value),
+        placeText(place.pose.latitudeDeg, place.pose.longitudeDeg, 2), distanceText(place.pose.altitudeM));
 }
 
 std::string suggestMarkdown(const SuggestOutcome& outcome, const SuggestRequest& request,

@@ -59,9 +59,12 @@ TEST_F(SuggestCommand, WritesAPresetAndAReportThatAnotherCommandConfirms) {
         const nlohmann::json drawn = nlohmann::json::parse(shot.output);
         EXPECT_NEAR(drawn["triangles"].get<double>() / place["value"].get<double>(), 1, 0.1);
     }
-    // A second run may replace its own files.
-    EXPECT_EQ(
-        suggest("--budget '15 k triangles' --flight down.toml --vary tau --no-pictures -o out").exitCode, 0);
+    // A second run may replace its own files, and names those that it does not replace.
+    std::ofstream(folder.path() / "out/suggested.regions.toml")
+        << "[[region]]\nname = \"peaks\"\ntau_factor = 2\nheights_m = [3000, 9000]\n";
+    const Ran again = suggest("--budget '15 k triangles' --flight down.toml --vary tau --no-pictures -o out");
+    EXPECT_EQ(again.exitCode, 0) << again.errors;
+    EXPECT_THAT(again.errors, HasSubstr("suggested.regions.toml: is of an earlier suggestion"));
 }
 
 TEST_F(SuggestCommand, ABudgetThatCannotBeMetExitsWithOne) {

@@ -84,10 +84,16 @@ void drawAxes(const ChartScale& scale, const FrontChart& chart) {
                      text.c_str());
         freeTo = y - half;
     }
-    // The lines fall to the right, which leaves room there.
     const char* name = chart.errorName;
     if (ImGui::CalcTextSize(name).x + 2 * gap > scale.end.x - scale.start.x) name = chart.shortErrorName;
-    list.AddText({scale.end.x - ImGui::CalcTextSize(name).x - gap, scale.start.y + gap / 2}, dim, name);
+    const float nameX = scale.end.x - ImGui::CalcTextSize(name).x - gap;
+    if (*chart.costTitle == '\0') {
+        // The lines fall to the right, which leaves room at the top.
+        list.AddText({nameX, scale.start.y + gap / 2}, dim, name);
+    } else {
+        list.AddText({scale.start.x + gap, scale.start.y + gap / 2}, dim, chart.costTitle);
+        list.AddText({nameX, scale.end.y - 2 * half - gap / 2}, dim, name);
+    }
 }
 
 void drawSeries(const ChartScale& scale, std::span<const FrontPoint> points, const FrontSeries& series) {

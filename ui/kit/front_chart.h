@@ -31,10 +31,11 @@ struct FrontChart {
     const char* name = "chart";  // part of the names of exported files
     const char* costName = "cost";
     std::span<const FrontPoint> points;
-    std::span<const FrontSeries> series;      // each point belongs to one
-    const char* errorName = "";               // of the horizontal axis, with its unit
-    const char* shortErrorName = "";          // for a narrow plot
-    const char* explanation = "";             // the tooltip beside points
+    std::span<const FrontSeries> series;  // each point belongs to one
+    const char* errorName = "";           // of the horizontal axis, with its unit
+    const char* shortErrorName = "";      // for a narrow plot
+    const char* costTitle = "";           // of the vertical axis; empty if a control above the plot names it
+    const char* explanation = "";         // the tooltip beside points
     std::function<void(std::size_t)> tell{};  // draws the content of a point's tooltip
 };
 

@@ -53,10 +53,9 @@ struct BudgetField {
 constexpr std::array<BudgetField, suggestLimitCount> budgetFields = {{
     {"Frame time", "%.3g ms",
      "Time of a frame on this machine, selecting and drawing. It is measured by drawing in the background; "
-     "the window draws "
-     "meanwhile, which disturbs it. worldy suggest measures it undisturbed, or takes the cost of another "
-     "machine."},
-    {"Triangles", "%.0f triangles", "Drawn triangles of a frame, skirts included."},
+     "the window draws meanwhile, which disturbs it. worldy suggest measures it undisturbed, or takes the "
+     "cost of another machine."},
+    {"Triangles", "%.0f", "Drawn triangles of a frame, skirts included."},
     {"Memory", "%.4g MiB",
      "Memory of the chunks that are resident or that a frame needs. The budget of the paging follows it."},
     {"Drawn error", "%.3g px",
@@ -64,6 +63,9 @@ constexpr std::array<BudgetField, suggestLimitCount> budgetFields = {{
 }};
 
 void budgetControls(SuggestPanelState& state) {
+    float labelWidth = 0;
+    for (const BudgetField& field : budgetFields)
+        labelWidth = std::max(labelWidth, ImGui::CalcTextSize(field.label).x);
     for (std::size_t i = 0; i < suggestLimitCount; ++i) {
         const BudgetField& field = budgetFields[i];
         ImGui::PushID(field.label);
@@ -71,7 +73,12 @@ void budgetControls(SuggestPanelState& state) {
         noteItem(fmt::format("Limit {}", field.label));
         tooltip(field.explanation);
         ImGui::SameLine();
-        labelledControl(field.label, field.explanation);
+        const float labelX = ImGui::GetCursorPosX();
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(field.label);
+        tooltip(field.explanation);
+        ImGui::SameLine(labelX + labelWidth + ImGui::GetStyle().ItemInnerSpacing.x);
+        ImGui::SetNextItemWidth(-1);
         beginGrey(!state.on[i], "This budget is off.");
         double limit = state.limits[i];
         numberField("##limit", limit, field.unit);
@@ -256,6 +263,7 @@ void suggestPlot(const SuggestView& suggest, SuggestPanelState& state) {
          .series = series,
          .errorName = "drawn error, px",
          .shortErrorName = "error, px",
+         .costTitle = suggest.budget.limitsCosts() ? "share of the budget" : "triangles",
          .explanation =
              "One point per candidate: the drawn error on the horizontal axis and the largest share of "
              "a budget of costs on the vertical axis, both logarithmic. 1 is the budget. Ringed: the "
@@ -338,10 +346,15 @@ void suggestTable(const SuggestView& suggest, SuggestPanelState& state) {
 // The result.
 
 constexpr std::array suggestBudgetColumns = {TableColumn{"Budget", 1, nullptr, "Memory of chunks", false},
-                                             TableColumn{"Limit", 1, nullptr, "200 k triangles", false},
-                                             TableColumn{"Before", 1, nullptr, "200 k triangles", false},
-                                             TableColumn{"Suggested", 1, nullptr, "200 k triangles", false},
+                                             TableColumn{"Limit", 1, nullptr, "1234 MiB", false},
+                                             TableColumn{"Before", 1, nullptr, "1.234 MiB", false},
+                                             TableColumn{"Suggested", 1, nullptr, "1.234 MiB", false},
                                              TableColumn{"Verdict", 1, nullptr, "exceeded by 123 %", false}};
+
+// The first column says what is counted.
+std::string suggestCellText(SuggestLimit limit, double value) {
+    return limit == SuggestLimit::Triangles ? countText(value) : limitText(limit, value);
+}
 
 void suggestBudgetTable(const SuggestOutcome& outcome) {
     const std::vector<SuggestRow> rows = rowsOf(outcome);
@@ -350,9 +363,9 @@ void suggestBudgetTable(const SuggestOutcome& outcome) {
         const SuggestRow& row = rows[i];
         const bool isMet = !row.budget || row.after <= *row.budget;
         cell(std::string(textOf(row.limit).name));
-        cell(row.budget ? limitText(row.limit, *row.budget) : "-");
-        cell(limitText(row.limit, row.before));
-        cell(limitText(row.limit, row.after));
+        cell(row.budget ? suggestCellText(row.limit, *row.budget) : "-");
+        cell(suggestCellText(row.limit, row.before));
+        cell(suggestCellText(row.limit, row.after));
         cell(row.verdict, isMet ? palette().text : palette().warning);
     });
     const auto rowOf = [&](std::size_t i) -> const SuggestRow& { return rows[i]; };
@@ -378,8 +391,7 @@ void suggestResult(const EditorView& view, Commands& commands) {
                                     : "The settings of now already meet the budget.");
     if (button("Apply",
                "Sets the tolerance, the metric, the morph range, the memory budget and the suggested "
-               "regions, and "
-               "turns the governor off. Undo reverts this."))
+               "regions, and turns the governor off. Undo reverts this."))
         commands.push_back(ApplySuggest{});
     endGrey();
     sameLineForButton("Save report");
@@ -391,12 +403,12 @@ void suggestResult(const EditorView& view, Commands& commands) {
     wrappedText(verdictText(outcome), outcome.isMet ? palette().good : palette().warning);
     suggestBudgetTable(outcome);
     for (const SettingDifference& change : outcome.changes)
-        wrappedText(fmt::format("{}: {} > {}", change.setting, shortNumberText(change.here),
-                                shortNumberText(change.there)),
+        wrappedText(inFont(fmt::format("{}: {} \u2192 {}", change.setting, shortNumberText(change.here),
+                                       shortNumberText(change.there))),
                     palette().text);
     std::vector<ValueRow> effects;
     for (const SuggestEffect& effect : effectsOf(outcome))
-        effects.push_back({effect.name, fmt::format("{} > {}", effect.before, effect.after),
+        effects.push_back({effect.name, inFont(fmt::format("{} \u2192 {}", effect.before, effect.after)),
                            "Before and with the suggestion."});
     valueRows("suggest effects", effects);
     for (std::size_t i = 0; i < outcome.places.size(); ++i) {
