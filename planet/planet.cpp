@@ -217,8 +217,8 @@ bool Planet::settle(std::span<const ViewInput> views, const UploadChunk& upload,
             untilRetryS ? std::min(deadline, Clock::now() + std::chrono::ceil<Clock::duration>(
                                                                 std::chrono::duration<double>(*untilRetryS)))
                         : deadline;
-        // A step selects anew, which takes longer the more is resident. The loaders still have work during a step if
-        // half of what was requested is left.
+        // Each step makes a new selection over all resident chunks. Half of what was requested keeps the loaders busy
+        // during that time.
         const std::size_t half = (status.queued + status.loading) / 2;
         if (status.idle() && untilRetryS)
             std::this_thread::sleep_until(until);

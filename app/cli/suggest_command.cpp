@@ -11,10 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
-#include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
 #include "app/base/message.h"
 #include "app/base/output_file.h"

@@ -85,7 +85,7 @@ std::optional<planet::Result<Picture>> pictureReadBeside(Scene& scene) {
 
 // Reads the colour image when it is first drawn, because that takes as long as opening a planet.
 void fitColourImage(Scene& scene, const SurfaceSettings& surface, planet::gl::ShaderWait wait) {
-    // What is being read is kept, even if it is not drawn any more.
+    // A picture that is being read is kept, even if it is not drawn any more.
     if (scene.colourImage.empty() || (!scene.colourReading && !drawsColourImage(scene, surface))) return;
     planet::Result<void> given;
     if (wait == planet::gl::ShaderWait::Never) {

@@ -14,7 +14,6 @@
 
 #include "app/base/stopwatch.h"
 #include "app/base/text.h"
-#include "app/scene/frame_stats.h"
 #include "app/scene/offscreen.h"
 #include "app/scene/scene.h"
 #include "planet/base/percentile.h"

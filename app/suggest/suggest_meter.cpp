@@ -14,11 +14,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "app/base/text.h"
 #include "app/scene/camera_control.h"
 #include "app/scene/scene_settings.h"
 #include "planet/base/percentile.h"

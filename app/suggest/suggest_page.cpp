@@ -71,7 +71,7 @@ struct PageCanvas {
         std::string line, word;
         const int step = lineStepPx * size / bodyPx;
         while (stream >> word) {
-            const std::string longer = line.empty() ? word : line + " " + word;
+            const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
             if (!line.empty() && widthOf(longer, size) > pageWidth - 2 * margin) {
                 text(margin, y, line, size, colour);
                 y += step;

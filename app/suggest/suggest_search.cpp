@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -186,6 +185,8 @@ class SuggestSearch {
 public:
     SuggestSearch(const SuggestBudget& budget, const SuggestRanges& ranges, const SuggestCalls& calls)
         : budget_(budget), ranges_(ranges), calls_(calls) {}
+    SuggestSearch(const SuggestSearch&) = delete;
+    SuggestSearch& operator=(const SuggestSearch&) = delete;
 
     Result<SuggestFound> run(const SuggestCandidate& now) {
         tellAhead(expectedSamples(), 1 + suggestSurvivors * wholesOfOne);

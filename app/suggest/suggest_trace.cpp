@@ -15,7 +15,6 @@
 #include "app/suggest/suggest_budget.h"
 #include "planet/base/result.h"
 #include "planet/base/try.h"
-#include "planet/trace/trace_reader.h"
 #include "planet/trace/trace_what_if.h"
 
 namespace worldy {

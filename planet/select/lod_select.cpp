@@ -8,7 +8,6 @@
 #include <numeric>
 #include <optional>
 #include <unordered_set>
-#include <utility>
 
 #include "planet/select/drawn_bound.h"
 #include "planet/select/screen_error.h"
@@ -661,7 +660,7 @@ void sortByDistance(std::vector<DrawItem>& draw) {
         begin = end;
     }
     std::vector<DrawItem> sorted;
-    sorted.reserve(draw.size());
+    sorted.reserve(draw.capacity());  // the next frame needs about as much
     for (const DistanceKey key : keys) sorted.push_back(draw[indexOf(key)]);
     draw.swap(sorted);
 }

@@ -143,7 +143,8 @@ private:
     void recordFrame() {
         constexpr std::int64_t frameNs = 16'700'000, stepNs = 2'000'000;
         const std::int64_t beginNs = 1'000'000'000 + frameNs * static_cast<std::int64_t>(history_.size());
-        const planet::ChunkId chunk = planet_->selection().draw.front().id;
+        const std::vector<planet::DrawItem>& drawn = planet_->selection().draw;
+        const planet::ChunkId chunk = drawn.empty() ? planet::ChunkId{} : drawn.front().id;
         timeline_.beginFrame(history_.size(), beginNs, beginNs);
         timeline_.add(ChunkChangeKind::Came, chunk, 2.5);
         timeline_.add(ChunkChangeKind::Split, chunk);

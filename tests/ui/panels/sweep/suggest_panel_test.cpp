@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "app/suggest/suggest_run.h"
+#include "tests/support/empty_view.h"
 #include "tests/support/panel_fixture.h"
 #include "tests/support/planet_fixture.h"
 
@@ -60,12 +60,8 @@ protected:
     const std::vector<std::filesystem::path> flights_ = {"/flights/down.toml", "/flights/along.toml"};
     SuggestOutcome outcome_;
     SuggestPanelState state_;
-    FrameStats stats_;
-    std::deque<FrameSample> history_;
-    planet::LodChanges changes_;
-    std::deque<LogLine> log_;
-    EditorView view_{
-        .frames = {.stats = stats_, .history = history_}, .log = log_, .instruments = {.changes = changes_}};
+    EmptyView empty_;
+    EditorView& view_ = empty_.view;
 };
 
 TEST_F(SuggestPanel, searchesTheBudgetsThatAreOnOverTheChosenFlights) {
