@@ -1,16 +1,13 @@
 #include <fcntl.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <cstdlib>
-#include <system_error>
 #include <utility>
 
 #include "planet/base/open_file.h"
 #include "planet/base/try.h"
 #include "planet/raster/height_raster.h"
+#include "planet/raster/temporary_file.h"
 
 namespace planet {
 
@@ -20,24 +17,6 @@ constexpr int rawBlockSide = 256;            // samples
 constexpr int spillBlockWidth = 256;         // samples
 constexpr int spillBlockHeight = 64;         // samples
 constexpr std::size_t bandBytes = 8u << 20;  // rows of an image read at once
-
-// Creates a nameless file in the system's temporary folder, so that it disappears even if the program is
-// killed. On file systems without such files it briefly has a name.
-Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& calls) {
-    std::error_code problem;
-    const std::filesystem::path folder = std::filesystem::temp_directory_path(problem);
-    if (problem) return ioError(fmt::format("no temporary folder: {}", problem.message()));
-    const std::string name = "temporary file in " + folder.string();
-    int descriptor = uninterrupted(
-        [&] { return calls.open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR); });
-    if (descriptor < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
-        std::string named = (folder / "planet-heights-XXXXXX").string();
-        descriptor = uninterrupted([&] { return ::mkostemp(named.data(), O_CLOEXEC); });
-        if (descriptor >= 0) calls.unlink(named.c_str());
-    }
-    if (descriptor < 0) return ioError(fmt::format("{}: cannot be created: {}", name, lastSystemError()));
-    return std::make_shared<const OpenFile>(descriptor, name, calls);
-}
 
 // The layout of the temporary file: whole blocks one after another, row-major, also at the edges.
 struct SpillLayout {

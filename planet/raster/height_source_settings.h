@@ -33,7 +33,7 @@ struct HeightSourceSettings {
     // Error.
     bool skipBroken = false;
     // Memory limit for heights, bytes; each takes 4 bytes. A larger source is read in blocks; if its file has
-    // no blocks, such as a PNG, it is copied once to a temporary file.
+    // no blocks, such as a PNG or a GeoTIFF in strips, it is copied once to a temporary file.
     std::size_t cacheBytes = 48u << 20;
     FileCalls fileCalls = systemFileCalls();  // for raw faces and the temporary file
     // A request ends the opening of a source, which may read every sample, with an Error of the kind Cancelled.

@@ -181,9 +181,16 @@ void RasterMosaic::sortIntoBands() {
 }
 
 Result<std::vector<float>> RasterMosaic::readBlock(std::size_t tile, int blockX, int blockY) const {
-    TRY_ASSIGN(auto heights, tiles_[tile].raster->readBlock(blockX, blockY));
-    *samplesRead_ += heights.size();
+    const Raster& raster = *tiles_[tile].raster;
+    TRY_ASSIGN(auto heights, raster.readBlock(blockX, blockY));
+    if (!raster.samplesRead()) *samplesRead_ += heights.size();
     return heights;
+}
+
+std::uint64_t RasterMosaic::samplesRead() const {
+    std::uint64_t samples = *samplesRead_;
+    for (const Tile& tile : tiles_) samples += tile.raster->samplesRead().value_or(0);
+    return samples;
 }
 
 // Copies the samples of a tile that lie in a rectangle. `rect` is the tile's place, and `target` the rectangle of

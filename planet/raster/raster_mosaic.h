@@ -94,7 +94,7 @@ public:
     // Reads a block of a tile from its file, past the cache: heights as Raster::readBlock returns them.
     Result<std::vector<float>> readBlock(std::size_t tile, int blockX, int blockY) const;
     // Returns the number of samples that were read from the files so far.
-    std::uint64_t samplesRead() const { return *samplesRead_; }
+    std::uint64_t samplesRead() const;
 
     // Returns the places of the tiles that touch a rectangle, in each turn in which they do.
     std::vector<GridRect> tilesIn(const GridRect& rect) const;

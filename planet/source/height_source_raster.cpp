@@ -16,6 +16,7 @@
 
 #include "planet/base/try.h"
 #include "planet/raster/gdal_raster.h"
+#include "planet/raster/spilled_raster.h"
 #include "planet/source/height_quanta.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/layer_readings.h"
@@ -114,12 +115,15 @@ Error errorOf(const std::vector<std::filesystem::path>& files, const std::vector
 Result<std::vector<OpenRaster>> openRasters(
     const std::vector<std::filesystem::path>& files,
     const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open,
-    const std::stop_token& stop, std::vector<BrokenFile>& broken) {
+    const HeightSourceSettings& settings, std::vector<BrokenFile>& broken) {
     std::vector<OpenRaster> rasters;
     std::set<std::string> known;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (stop.stop_requested()) return cancelled();
-        const Result<std::shared_ptr<const Raster>> raster = open(i);
+        if (settings.stop.stop_requested()) return cancelled();
+        const Result<std::shared_ptr<const Raster>> raster =
+            open(i).and_then([&](const std::shared_ptr<const Raster>& opened) {
+                return inSmallBlocks(opened, settings.cacheBytes, settings.fileCalls);
+            });
         if (!raster) {
             broken.push_back({i, raster.error()});
             continue;
@@ -188,7 +192,7 @@ Result<RasterAreas> openRasterAreas(
     const std::function<Result<std::shared_ptr<const Raster>>(std::size_t)>& open) {
     RasterAreas found;
     std::vector<BrokenFile> broken;
-    TRY_ASSIGN(auto rasters, openRasters(files, open, settings.stop, broken));
+    TRY_ASSIGN(auto rasters, openRasters(files, open, settings, broken));
     // Without the broken rasters, the others are joined and surveyed again.
     for (bool done = rasters.empty(); !done;) {
         const std::size_t count = rasters.size();

@@ -135,6 +135,27 @@ TEST(RasterSource, FortyTilesAreTheWholeRasterToTheBit) {
     }
 }
 
+// A cache that drops rows before the next piece needs their other columns would have them read again and again.
+TEST(RasterSource, LargeFileInStripsIsReadOnce) {
+    const TemporaryFolder folder;
+    const Projected& projection = projections[1];
+    const SampleGrid grid = gridAround(projection.epsg, projection.longitudeDeg, projection.latitudeDeg, 1000,
+                                       900, 200 / projection.metresPerUnit);
+    const std::vector<float> samples =
+        samplesOf(grid, terrainAround(projection.longitudeDeg, projection.latitudeDeg));
+    for (const GDALDataType type : {GDT_Float32, GDT_Int16}) {
+        writeRaster(folder / "tiles.tif", grid, samples, {.type = type, .options = {"TILED=YES"}});
+        writeRaster(folder / "strips.tif", grid, samples, {.type = type, .options = {"COMPRESS=DEFLATE"}});
+        HeightSourceSettings settings;
+        settings.cacheBytes = 1 << 19;
+        const HeightSource strips = mustOpen(folder / "strips.tif", settings);
+        EXPECT_EQ(
+            heightsAround(strips, projection.longitudeDeg, projection.latitudeDeg),
+            heightsAround(mustOpen(folder / "tiles.tif"), projection.longitudeDeg, projection.latitudeDeg));
+        EXPECT_EQ(strips.reads().read, 1000u * 900u);
+    }
+}
+
 TEST(RasterSource, OrderOfTilesThatAgreeDoesNotMatter) {
     const TemporaryFolder folder;
     const SampleGrid grid = gridAround(4326, 10, 45, 120, 60, 0.002);

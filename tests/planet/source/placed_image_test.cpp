@@ -17,7 +17,7 @@ using test::radPerDeg;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr int side = 257;
+constexpr int imageSide = 257;
 
 // A plane that tells columns from rows, with values of 16 bits.
 double valueAt(double column, double row) {
@@ -43,11 +43,11 @@ Place placeFrom(const Place& from, double bearing, double distanceM, double radi
 class PlacedImage : public testing::Test {
 protected:
     PlacedImage() {
-        writeImage(folder / "map.png", Image<std::uint16_t>(side, side, valueAt));
+        writeImage(folder / "map.png", Image<std::uint16_t>(imageSide, imageSide, valueAt));
         for (const bool big : {false, true}) {
             std::string bytes;
-            for (int i = 0; i < side * side; ++i) {
-                const auto value = static_cast<std::uint16_t>(valueAt(i % side, i / side));
+            for (int i = 0; i < imageSide * imageSide; ++i) {
+                const auto value = static_cast<std::uint16_t>(valueAt(i % imageSide, i / imageSide));
                 const char low = static_cast<char>(value & 255);
                 const char high = static_cast<char>(value >> 8);
                 bytes += big ? std::string{high, low} : std::string{low, high};
@@ -66,12 +66,12 @@ protected:
     void expectPlaced(const std::string& layer, const Place& middle, double widthM, double headingDeg,
                       double radiusM = 6371000) {
         const HeightSource world = mustOpen(write(layer, radiusM));
-        const double stepM = widthM / (side - 1);
+        const double stepM = widthM / (imageSide - 1);
         const double cellM = 2 * radiusM / finest;
-        for (int i = 3; i < side - 3; i += 10) {
-            for (const int row : {i, side - 1 - i}) {
-                const double right = (i - (side - 1) / 2.0) * stepM;
-                const double up = ((side - 1) / 2.0 - row) * stepM;
+        for (int i = 3; i < imageSide - 3; i += 10) {
+            for (const int row : {i, imageSide - 1 - i}) {
+                const double right = (i - (imageSide - 1) / 2.0) * stepM;
+                const double up = ((imageSide - 1) / 2.0 - row) * stepM;
                 const double bearing = std::atan2(right, up) + headingDeg * radPerDeg;
                 const Place there = placeFrom(middle, bearing, std::hypot(right, up), radiusM);
                 ASSERT_NEAR(sampledNear(world, finest, there.latitudeDeg, there.longitudeDeg),
@@ -140,7 +140,7 @@ TEST_F(PlacedImage, ScaleTurnsValuesIntoMetres) {
     EXPECT_EQ(sampledNear(world, finest, 11, 8), -7);
     EXPECT_NEAR(world.maxM, 0.1 * valueAt(256, 256) - 100, 1e-3);
     EXPECT_NEAR(world.minM, -7, 1e-6);
-    EXPECT_EQ(world.sampleCount, static_cast<std::uint64_t>(side * side));
+    EXPECT_EQ(world.sampleCount, static_cast<std::uint64_t>(imageSide * imageSide));
 }
 
 TEST_F(PlacedImage, SignedRawGoesBelowZero) {
@@ -151,7 +151,7 @@ TEST_F(PlacedImage, SignedRawGoesBelowZero) {
 }
 
 TEST_F(PlacedImage, LargeImageIsReadInBlocks) {
-    writeImage(folder / "tiled.tif", Image<float>(side, side, valueAt), {.tile = 64});
+    writeImage(folder / "tiled.tif", Image<float>(imageSide, imageSide, valueAt), {.tile = 64});
     expectPlaced("files = \"tiled.tif\"\nplace = {lat = 46.5, lon = 8, width_m = 8192}", {46.5, 8}, 8192, 0);
     const auto path = write("files = \"map.png\"\nplace = {lat = 46.5, lon = 8, width_m = 8192}");
     HeightSourceSettings small;
