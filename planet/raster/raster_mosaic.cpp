@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "planet/base/cpu_clones.h"
 #include "planet/base/try.h"
 
 namespace planet {
@@ -44,16 +45,18 @@ std::size_t indexIn(const GridRect& rect, std::int64_t column, std::int64_t row)
     return static_cast<std::size_t>((row - rect.row) * rect.columns + column - rect.column);
 }
 
+PLANET_CPU_CLONES void copyRowHeights(const float* from, std::size_t count, float* __restrict out) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = std::isnan(from[i]) ? out[i] : from[i];
+}
+
 // Copies the samples that have a height from one rectangle to another.
 void copyHeights(const GridRect& from, std::span<const float> samples, const GridRect& to,
                  std::span<float> out) {
     const GridRect both = sharedBy(from, to);
-    for (std::int64_t row = both.row; row < both.row + both.rows; ++row) {
-        for (std::int64_t column = both.column; column < both.column + both.columns; ++column) {
-            const float height = samples[indexIn(from, column, row)];
-            if (!std::isnan(height)) out[indexIn(to, column, row)] = height;
-        }
-    }
+    if (isEmpty(both)) return;
+    for (std::int64_t row = both.row; row < both.row + both.rows; ++row)
+        copyRowHeights(&samples[indexIn(from, both.column, row)], static_cast<std::size_t>(both.columns),
+                       &out[indexIn(to, both.column, row)]);
 }
 
 float meanOf(float a, float b) {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <list>
 #include <mutex>
 #include <numbers>
 #include <optional>
@@ -86,16 +89,45 @@ double eastingAround(PJ* forward) {
     return 360 * std::abs(perDegree);
 }
 
+// Returns whether a transformation leaves degrees of longitude and latitude as they are.
+bool keepsDegrees(PJ* forward) {
+    return std::ranges::all_of(std::array{-97.0, 0.5, 151.0}, [&](double longitude) {
+        const PJ_COORD out = proj_trans(forward, PJ_FWD, proj_coord(longitude, longitude / 4, 0, HUGE_VAL));
+        return std::abs(out.xy.x - longitude) < sameDeg && std::abs(out.xy.y - longitude / 4) < sameDeg;
+    });
+}
+
 double withinTurn(double longitudeRad) {
     return std::remainder(longitudeRad, 2 * std::numbers::pi);
 }
 
 }  // namespace
 
-// Transformations that no thread is using. Another is made if there is none.
-class RasterPlacement::Transformations {
+// A coordinate reference system, and its transformations that no thread is using. Another is made if there is none.
+class RasterPlacement::System {
 public:
-    explicit Transformations(std::string crs) : crs_(std::move(crs)) {}
+    // Null if PROJ knows no way to the system from longitude and latitude.
+    static std::shared_ptr<System> make(const std::string& crs) {
+        std::optional<Transformation> transformation = makeTransformation(crs);
+        if (!transformation) return nullptr;
+        const auto system = std::make_shared<System>(crs);
+        system->unitsAround_ = planet::unitsAround(crs);
+        system->isDegrees_ =
+            std::abs(system->unitsAround_ - 360) < sameDeg && keepsDegrees(transformation->forward.get());
+        if (system->unitsAround_ == 0)
+            system->eastingAround_ = planet::eastingAround(transformation->forward.get());
+        system->giveBack(*std::move(transformation));
+        return system;
+    }
+    explicit System(std::string crs) : crs_(std::move(crs)) {}
+
+    const std::string& crs() const { return crs_; }
+    // The units of longitude in a full turn, if the system is one of longitude and latitude; otherwise 0.
+    double unitsAround() const { return unitsAround_; }
+    // The units of easting in a full turn of a cylindrical projection; otherwise 0.
+    double eastingAround() const { return eastingAround_; }
+    // Whether coordinates are degrees of WGS 84.
+    bool isDegrees() const { return isDegrees_; }
 
     Transformation borrow() {
         {
@@ -117,44 +149,66 @@ public:
 
 private:
     std::string crs_;
+    double unitsAround_ = 0;
+    double eastingAround_ = 0;
+    bool isDegrees_ = false;
     std::mutex mutex_;
     std::vector<Transformation> idle_;
 };
 
+// The systems of the rasters that were opened last, the most recently used first. PROJ takes about 10 ms to make one, and a
+// planet can have thousands of rasters with the same.
+class RasterPlacement::RecentSystems {
+public:
+    std::shared_ptr<System> of(const std::string& crs) {
+        {
+            const std::lock_guard lock(mutex_);
+            const auto found =
+                std::ranges::find(systems_, crs, [](const auto& system) { return system->crs(); });
+            if (found != systems_.end()) {
+                systems_.splice(systems_.begin(), systems_, found);
+                return systems_.front();
+            }
+        }
+        const std::shared_ptr<System> made = System::make(crs);
+        if (!made) return nullptr;
+        const std::lock_guard lock(mutex_);
+        systems_.push_front(made);
+        if (systems_.size() > mostRecent) systems_.pop_back();
+        return made;
+    }
+
+private:
+    static constexpr std::size_t mostRecent = 8;
+    std::mutex mutex_;
+    std::list<std::shared_ptr<System>> systems_;
+};
+
 Result<RasterPlacement> RasterPlacement::make(const std::string& file, const RasterGrid& grid) {
-    RasterPlacement placement;
-    placement.x_ = grid.x;
-    placement.y_ = grid.y;
-    placement.perArea_ = 1 / (grid.x[1] * grid.y[2] - grid.x[2] * grid.y[1]);
-    std::optional<Transformation> transformation = makeTransformation(grid.crs);
-    if (!transformation) {
+    static RecentSystems recent;
+    const std::shared_ptr<System> system = recent.of(grid.crs);
+    if (!system) {
         return badInput(
             fmt::format("{}: PROJ knows no way from longitude and latitude to its coordinate reference "
                         "system; expected one of the Earth, or of another body with its own longitude and "
                         "latitude",
                         file));
     }
-    const double around = unitsAround(grid.crs);
+    RasterPlacement placement;
+    placement.x_ = grid.x;
+    placement.y_ = grid.y;
+    placement.perArea_ = 1 / (grid.x[1] * grid.y[2] - grid.x[2] * grid.y[1]);
+    const double around = system->unitsAround();
     const bool isStraight = grid.x[2] == 0 && grid.y[1] == 0;
-    const bool alongMeridians = around > 0 && isStraight;
-    bool isDegrees = around > 0 && std::abs(around - 360) < sameDeg;
-    for (const double longitude : {-97.0, 0.5, 151.0}) {
-        const PJ_COORD out = proj_trans(transformation->forward.get(), PJ_FWD,
-                                        proj_coord(longitude, longitude / 4, 0, HUGE_VAL));
-        isDegrees = isDegrees && std::abs(out.xy.x - longitude) < sameDeg &&
-                    std::abs(out.xy.y - longitude / 4) < sameDeg;
-    }
-    if (alongMeridians) {
+    if (around > 0 && isStraight) {
         placement.columnsAround_ = around / std::abs(grid.x[1]);
         const double pole = around / 4;
         placement.northRow_ = (pole - grid.y[0]) / grid.y[2];
         placement.southRow_ = (-pole - grid.y[0]) / grid.y[2];
     } else if (around == 0 && isStraight) {
-        placement.columnsAround_ = eastingAround(transformation->forward.get()) / std::abs(grid.x[1]);
+        placement.columnsAround_ = system->eastingAround() / std::abs(grid.x[1]);
     }
-    if (isDegrees) return placement;
-    placement.transformations_ = std::make_shared<Transformations>(grid.crs);
-    placement.transformations_->giveBack(*std::move(transformation));
+    if (!system->isDegrees()) placement.system_ = system;
     return placement;
 }
 
@@ -170,11 +224,11 @@ void RasterPlacement::toGrid(std::span<const double> longitudeRad, std::span<con
         column[i] = longitudeRad[i] / radPerDeg;
         row[i] = latitudeRad[i] / radPerDeg;
     }
-    if (transformations_) {
-        Transformation transformation = transformations_->borrow();
+    if (system_) {
+        Transformation transformation = system_->borrow();
         proj_trans_generic(transformation.forward.get(), PJ_FWD, column.data(), sizeof(double), count,
                            row.data(), sizeof(double), count, nullptr, 0, 0, nullptr, 0, 0);
-        transformations_->giveBack(std::move(transformation));
+        system_->giveBack(std::move(transformation));
     }
     for (std::size_t i = 0; i < count; ++i) {
         const double dx = column[i] - x_[0];
@@ -192,11 +246,11 @@ void RasterPlacement::toPlanet(std::span<const double> column, std::span<const d
         longitudeRad[i] = x_[0] + x_[1] * column[i] + x_[2] * row[i];
         latitudeRad[i] = y_[0] + y_[1] * column[i] + y_[2] * row[i];
     }
-    if (transformations_) {
-        Transformation transformation = transformations_->borrow();
+    if (system_) {
+        Transformation transformation = system_->borrow();
         proj_trans_generic(transformation.forward.get(), PJ_INV, longitudeRad.data(), sizeof(double), count,
                            latitudeRad.data(), sizeof(double), count, nullptr, 0, 0, nullptr, 0, 0);
-        transformations_->giveBack(std::move(transformation));
+        system_->giveBack(std::move(transformation));
     }
     for (std::size_t i = 0; i < count; ++i) {
         longitudeRad[i] = withinTurn(longitudeRad[i] * radPerDeg);

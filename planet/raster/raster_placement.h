@@ -22,8 +22,8 @@ struct RasterGrid {
     std::string crs;  // WKT
 };
 
-// Copies share the transformations. Several threads may call the const functions at once; each borrows a
-// transformation of its own.
+// Placements in the same reference system share its transformations. Several threads may call the const functions at once;
+// each borrows a transformation of its own.
 class RasterPlacement {
 public:
     // file: for messages. The Error says that PROJ knows no way from longitude and latitude to the
@@ -39,7 +39,7 @@ public:
                   std::span<double> latitudeRad) const;
 
     // Returns whether places go through PROJ, which takes long; otherwise the grid is one of degrees.
-    bool isProjected() const { return transformations_ != nullptr; }
+    bool isProjected() const { return system_ != nullptr; }
 
     // The number of columns once around the planet, if columns follow the meridians at equal distances, as in a grid of
     // degrees or a cylindrical projection such as Mercator; otherwise 0.
@@ -53,13 +53,14 @@ public:
     double rowsPerRad() const;
 
 private:
-    class Transformations;
+    class System;
+    class RecentSystems;
     RasterPlacement() = default;
 
     std::array<double, 3> x_{};
     std::array<double, 3> y_{};
-    double perArea_ = 0;                                // 1 over the determinant of the grid's steps
-    std::shared_ptr<Transformations> transformations_;  // null: longitude and latitude in degrees
+    double perArea_ = 0;              // 1 over the determinant of the grid's steps
+    std::shared_ptr<System> system_;  // null: longitude and latitude in degrees
     double columnsAround_ = 0;
     double northRow_ = -std::numeric_limits<double>::infinity();
     double southRow_ = std::numeric_limits<double>::infinity();

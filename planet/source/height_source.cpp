@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <numbers>
 #include <system_error>
 #include <utility>
@@ -16,10 +18,12 @@
 #include "planet/raster/image_formats.h"
 #include "planet/raster/image_names.h"
 #include "planet/raster/image_placement.h"
+#include "planet/raster/raster_placement.h"
 #include "planet/source/height_quanta.h"
 #include "planet/source/height_source_kinds.h"
 #include "planet/source/source_parts.h"
 #include "planet/source/terrain.h"
+#include "planet/sphere/cube_sphere.h"
 
 namespace planet {
 
@@ -78,6 +82,23 @@ Result<HeightSource> openTerrain(const std::filesystem::path& text, const Height
     return result;
 }
 
+// Returns whether a raster surely covers less than the whole planet: from its middle to the middle of its left edge is less
+// than a quarter of the way around. OpenImageIO, which takes long to load, need not be asked then.
+bool isPartOfPlanet(const Raster& raster) {
+    const RasterLayout& layout = raster.layout();
+    const auto placement = RasterPlacement::make(raster.path().string(), {layout.x, layout.y, layout.crs});
+    if (!placement) return false;
+    const double middleRow = (layout.height - 1) / 2.0;
+    const std::array columns = {(layout.width - 1) / 2.0, -0.5};
+    const std::array rows = {middleRow, middleRow};
+    std::array<double, 2> longitudes{};
+    std::array<double, 2> latitudes{};
+    placement->toPlanet(columns, rows, longitudes, latitudes);
+    // False for places that are not finite.
+    return glm::dot(directionFromGeographic({latitudes[0], longitudes[0]}),
+                    directionFromGeographic({latitudes[1], longitudes[1]})) > 0;
+}
+
 // Opens an image: one of the whole planet by OpenImageIO, any other that has a position on the planet by GDAL, which
 // alone knows masks and alpha.
 Result<HeightSource> openImage(const std::filesystem::path& path, const HeightSourceSettings& settings) {
@@ -88,13 +109,14 @@ Result<HeightSource> openImage(const std::filesystem::path& path, const HeightSo
                         "with place = {{lat = 46.5, lon = 8.0, width_m = 8192}}",
                         path.string()));
     }
+    const auto raster = openGeoreferenced(path, settings);
+    if (raster && isPartOfPlanet(*raster)) return openRasterSource(path, {path}, settings);
     const Result<std::shared_ptr<ImageFile>> image = ImageFile::open(path, settings.colourChannel);
     const auto placement = image.and_then([&](const std::shared_ptr<ImageFile>& file) {
         const ImageLayout& layout = file->layout();
         return placementOf(path.string(), layout.width, layout.height, layout.geoTags);
     });
     if (placement) {
-        const auto raster = openGeoreferenced(path, settings);
         if (!raster || !raster->hidesSamples()) return openEquirectangularSource(path, settings);
     } else if (!isGdalRaster(path)) {
         return openEquirectangularSource(path, settings);
@@ -108,9 +130,11 @@ Result<HeightSource> openImage(const std::filesystem::path& path, const HeightSo
 
 }  // namespace
 
-bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourChannel) {
+bool coversPlanet(const std::filesystem::path& path, const HeightSourceSettings& settings) {
     if (findFaceFiles(path)) return true;
-    const auto image = ImageFile::open(path, colourChannel);
+    const auto raster = openGeoreferenced(path, settings);
+    if (raster && isPartOfPlanet(*raster)) return false;
+    const auto image = ImageFile::open(path, settings.colourChannel);
     if (!image) return false;
     const ImageLayout& layout = (*image)->layout();
     return placementOf(path.string(), layout.width, layout.height, layout.geoTags).has_value();

@@ -50,9 +50,8 @@ Result<RasterAreas> openRasterAreas(
 // Returns ", 1 file skipped" for a description; empty if none was.
 std::string skippedText(std::size_t count);
 
-// Returns whether a path names an image of the whole planet or six cube faces. colourChannel: as in
-// HeightSourceSettings.
-bool coversPlanet(const std::filesystem::path& path, std::optional<int> colourChannel);
+// Returns whether a path names an image of the whole planet or six cube faces.
+bool coversPlanet(const std::filesystem::path& path, const HeightSourceSettings& settings);
 
 // Opens a file as a georeferenced raster; null if it is none.
 std::shared_ptr<const GdalRaster> openGeoreferenced(const std::filesystem::path& path,

@@ -45,7 +45,7 @@ Result<void> samplePiece(const Rasters& rasters, const SampleTile& piece, double
                          float* needed, std::size_t stride) {
     std::vector<float> heights(samplesIn(piece), std::numeric_limits<float>::quiet_NaN());
     std::vector<float> quanta(needed ? heights.size() : 0, static_cast<float>(noQuantumM));
-    const PiecePlaces places = placesOf(piece);
+    const PiecePlaces places(piece);
     for (const RasterArea& area : rasters.areas) {
         const PlacesOnGrid onGrid = placesOnGrid(area, places);
         const auto quantum = static_cast<float>(quantumOf(area, radiusM));
@@ -58,10 +58,12 @@ Result<void> samplePiece(const Rasters& rasters, const SampleTile& piece, double
         }
     }
     const auto columns = static_cast<std::size_t>(piece.columns);
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        if (needed) needed[i / columns * stride + i % columns] = quanta[i];
-        out[i / columns * stride + i % columns] =
-            std::isnan(heights[i]) ? rasters.fillM : std::clamp(heights[i], rasters.minM, rasters.maxM);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(piece.rows); ++row) {
+        const float* const from = &heights[row * columns];
+        for (std::size_t i = 0; i < columns; ++i)
+            out[row * stride + i] =
+                std::isnan(from[i]) ? rasters.fillM : std::clamp(from[i], rasters.minM, rasters.maxM);
+        if (needed) std::copy_n(&quanta[row * columns], columns, needed + row * stride);
     }
     return {};
 }
@@ -75,7 +77,7 @@ std::string describe(const std::filesystem::path& path, const std::vector<Raster
 // Returns the reading of the finest raster that has a height at a place, or else of the finest one that lies there.
 Result<SourceReading> readingOf(const Rasters& rasters, const Geographic& place) {
     SourceReading reading;
-    const PiecePlaces places = placesOf(place);
+    const PiecePlaces places(place);
     for (const RasterArea& area : rasters.areas) {
         const PlacesOnGrid onGrid = placesOnGrid(area, places);
         if (onGrid.index.empty()) continue;

@@ -80,14 +80,6 @@ SourceLayer rasterLayer(const std::string& name, std::span<const RasterArea> are
     return layer;
 }
 
-PiecePlaces placesOf(const Geographic& place) {
-    PiecePlaces places{{place.longitudeRad}, {place.latitudeRad}, {std::cos(place.latitudeRad)}};
-    places.spacingRad = 1e-9;
-    places.centre = directionFromGeographic(place);
-    places.radiusRad = 1e-9;
-    return places;
-}
-
 Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onGrid) {
     const GridCell nearest = nearestSample(area.mosaic, onGrid.column[0], onGrid.row[0]);
     const std::vector<TileSample> tiles = tilesAt(area.mosaic, nearest.column, nearest.row);

@@ -21,8 +21,6 @@ SourceLayer rasterLayer(const std::string& name, std::span<const RasterArea> are
 // Returns "mesa.tif, 101 x 101 float, WGS 84", or "mesa.tif, 3 rasters on 2 grids, WGS 84".
 std::string aboutRasters(const std::string& name, std::span<const RasterArea> areas);
 
-// A place on the grid of rasters.
-PiecePlaces placesOf(const Geographic& place);
 // Reads the sample nearest to a place on the grid: the first one of onGrid. Its height is as the file says.
 Result<SourceReading> readSample(const RasterArea& area, const PlacesOnGrid& onGrid);
 

@@ -154,8 +154,8 @@ void atPlaces(const PiecePlaces& places, std::span<const std::size_t> wanted, co
     std::vector<double> values(4 * count);
     const std::span all(values);
     for (std::size_t i = 0; i < count; ++i) {
-        values[i] = places.longitudeRad[wanted[i]];
-        values[count + i] = places.latitudeRad[wanted[i]];
+        values[i] = places.geographic().longitudeRad[wanted[i]];
+        values[count + i] = places.geographic().latitudeRad[wanted[i]];
     }
     function(all.first(count), all.subspan(count, count), all.subspan(2 * count, count), all.last(count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -176,30 +176,27 @@ int latticeCellsFor(int filterCells, double samplesPerRad) {
 void overPiece(const PiecePlaces& places, std::span<const std::size_t> wanted, int latticeCells,
                double mostBend, const PlaceFunction& function, std::span<double> first,
                std::span<double> second) {
-    const std::optional<SampleTile>& tile = places.tile;
+    const std::optional<SampleTile>& tile = places.tile();
     // All places of a grid that is no finer than the lattice are points of it.
     if (!tile || latticeCells <= 0 || tile->faceCells <= latticeCells || wanted.empty())
         return atPlaces(places, wanted, function, first, second);
     const Lattice lattice(*tile, latticeCells, function);
     const std::vector<std::uint8_t> even = lattice.evenGroups(mostBend);
-    std::vector<double> interpolated(2 * first.size());
-    const std::span firsts = std::span(interpolated).first(first.size());
-    const std::span seconds = std::span(interpolated).last(first.size());
-    lattice.interpolate(0, *tile, firsts);
-    lattice.interpolate(1, *tile, seconds);
+    lattice.interpolate(0, *tile, first);
+    lattice.interpolate(1, *tile, second);
+    // On the edges of the cube, the lattices of two faces meet, which may not agree on what is even.
+    const int lastColumn = tile->firstColumn + tile->columns - 1;
+    const int lastRow = tile->firstRow + tile->rows - 1;
+    const bool meetsEdge = tile->firstColumn == 0 || tile->firstRow == 0 || lastColumn == tile->faceCells ||
+                           lastRow == tile->faceCells;
+    if (!meetsEdge && std::ranges::all_of(even, [](std::uint8_t isEven) { return isEven != 0; })) return;
     const auto width = static_cast<std::size_t>(tile->columns);
     std::vector<std::size_t> single;
     for (const std::size_t place : wanted) {
         const int column = tile->firstColumn + static_cast<int>(place % width);
         const int row = tile->firstRow + static_cast<int>(place / width);
-        // On the edges of the cube, the lattices of two faces meet, which may not agree on what is even.
         const bool onEdge = column == 0 || row == 0 || column == tile->faceCells || row == tile->faceCells;
-        if (onEdge || even[lattice.groupOf(column, row)] == 0) {
-            single.push_back(place);
-            continue;
-        }
-        first[place] = firsts[place];
-        second[place] = seconds[place];
+        if (onEdge || even[lattice.groupOf(column, row)] == 0) single.push_back(place);
     }
     atPlaces(places, single, function, first, second);
 }

@@ -20,9 +20,10 @@ using PlaceFunction =
 // grid. samplesPerRad: of the raster.
 int latticeCellsFor(int filterCells, double samplesPerRad);
 
-// Computes a function at some places of a piece, whose indices are `wanted`; first and second are for all places. It is interpolated where it bends by at most
-// `mostBend` over two cells of the lattice, and is computed for each place elsewhere, as where the projection is torn or not defined. A value
-// depends only on the point of the cube and on latticeCells, not on the piece, the face or the grid's spacing.
+// Computes a function at some places of a piece, whose indices are `wanted`. first and second have room for all places; those
+// that are not wanted may get any value. The function is interpolated where it bends by at most `mostBend` over two cells of
+// the lattice, and is computed for each place elsewhere, as where the projection is torn or not defined. A value depends
+// only on the point of the cube and on latticeCells, not on the piece, the face or the grid's spacing.
 void overPiece(const PiecePlaces& places, std::span<const std::size_t> wanted, int latticeCells,
                double mostBend, const PlaceFunction& function, std::span<double> first,
                std::span<double> second);

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <utility>
 
+#include "planet/base/cpu_clones.h"
 #include "planet/base/try.h"
 #include "planet/source/height_filter.h"
 #include "planet/source/height_geographic.h"
@@ -51,6 +52,12 @@ struct Position {
     std::int64_t nearestColumn = 0;
     std::int64_t nearestRow = 0;
 };
+
+// Returns the sample nearest to a position. One on the outer edge belongs to the outermost sample.
+PLANET_ALWAYS_INLINE GridCell nearestIn(const GridRect& bounds, double column, double row) {
+    return {std::clamp(roundedOf(column), bounds.column, bounds.column + bounds.columns - 1),
+            std::clamp(roundedOf(row), bounds.row, bounds.row + bounds.rows - 1)};
+}
 
 std::int64_t firstTap(double at, float stretch) {
     return floorOf(at - 2.0 * static_cast<double>(stretch)) + 1;
@@ -126,15 +133,15 @@ void keepPlacesOnTiles(const RasterMosaic& mosaic, PlacesOnGrid& places) {
 
 // Returns the cells along a face of the lattice on which the places of a piece are converted; 0: each is converted.
 int latticeCellsOf(const RasterArea& area, const PiecePlaces& places) {
-    if (!places.tile || !area.mosaic.placement().isProjected()) return 0;
-    return latticeCellsFor(filterCellsOf(*places.tile), area.samplesPerRad);
+    if (!places.tile() || !area.mosaic.placement().isProjected()) return 0;
+    return latticeCellsFor(filterCellsOf(*places.tile()), area.samplesPerRad);
 }
 
 // Returns how many samples lie in a radian along each axis at each wanted place; nothing if the grid of the planet is
 // finer than the mosaic everywhere.
 std::vector<SampleDensity> densitiesFor(const RasterArea& area, const PiecePlaces& places,
                                         std::span<const std::size_t> wanted) {
-    if (places.spacingRad * area.samplesPerRad * mostUneven <= 1) return {};
+    if (places.spacingRad() * area.samplesPerRad * mostUneven <= 1) return {};
     const RasterPlacement& placement = area.mosaic.placement();
     if (!placement.isGeographic()) {
         const auto exact = [&](std::span<const double> longitudes, std::span<const double> latitudes,
@@ -148,7 +155,7 @@ std::vector<SampleDensity> densitiesFor(const RasterArea& area, const PiecePlace
                 rows[i] = found[i].rowsPerRad;
             }
         };
-        std::vector<double> columns(places.longitudeRad.size());
+        std::vector<double> columns(places.count());
         std::vector<double> rows(columns.size());
         overPiece(places, wanted, latticeCellsOf(area, places), mostDensityBend * area.samplesPerRad, exact,
                   columns, rows);
@@ -159,7 +166,7 @@ std::vector<SampleDensity> densitiesFor(const RasterArea& area, const PiecePlace
     const double perRad = placement.columnsAround() / (2 * std::numbers::pi);
     std::vector<SampleDensity> densities;
     for (const std::size_t i : wanted)
-        densities.push_back({perRad / std::max(places.ring[i], 1e-12), placement.rowsPerRad()});
+        densities.push_back({perRad / std::max(places.geographic().ring[i], 1e-12), placement.rowsPerRad()});
     return densities;
 }
 
@@ -170,8 +177,7 @@ double stretchOf(double samplesPerRad, double spacingRad) {
 
 // Sorts the places without a height into regions.
 Positions positionsOf(const RasterArea& area, const PiecePlaces& places, const PlacesOnGrid& onGrid,
-                      std::span<const float> heights) {
-    const std::vector<SampleDensity> densities = densitiesFor(area, places, onGrid.index);
+                      std::span<const SampleDensity> densities, std::span<const float> heights) {
     const double middle = middleColumn(area.mosaic);
     const std::int64_t period = area.mosaic.period();
     Positions positions;
@@ -182,12 +188,12 @@ Positions positionsOf(const RasterArea& area, const PiecePlaces& places, const P
         double column = onGrid.column[i];
         double row = onGrid.row[i];
         const SampleDensity density = densities.empty() ? SampleDensity{} : densities[i];
-        double columnStretch = stretchOf(density.columnsPerRad, places.spacingRad);
-        double rowStretch = stretchOf(density.rowsPerRad, places.spacingRad);
+        double columnStretch = stretchOf(density.columnsPerRad, places.spacingRad());
+        double rowStretch = stretchOf(density.rowsPerRad, places.spacingRad());
         // Near a pole the kernel covers the whole turn, but no sample twice.
         if (period >= 4) columnStretch = std::min(columnStretch, static_cast<double>(period) / 4);
         const bool east = period > 0 && column > middle;
-        const GridCell nearest = nearestSample(area.mosaic, column, row);
+        const GridCell nearest = nearestIn(area.mosaic.bounds(), column, row);
         const int columnsLog2 = reduce(column, columnStretch);
         const int rowsLog2 = reduce(row, rowStretch);
         const Region own{{columnsLog2, rowsLog2}, east};
@@ -335,32 +341,51 @@ Result<void> fillPositions(const RasterMosaic& mosaic, const GridReduction& redu
     return {};
 }
 
-}  // namespace
-
-PiecePlaces placesOf(const SampleTile& piece) {
-    const std::size_t count = samplesIn(piece);
-    const auto columns = static_cast<std::size_t>(piece.columns);
-    PiecePlaces places{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count)};
-    const GeographicColumns grid(piece.face, piece.faceCells, piece.firstColumn, piece.columns);
-    for (int row = 0; row < piece.rows; ++row) {
-        const std::size_t first = static_cast<std::size_t>(row) * columns;
-        grid.placesOfRow(piece.firstRow + row, {std::span(places.longitudeRad).subspan(first, columns),
-                                                std::span(places.latitudeRad).subspan(first, columns),
-                                                std::span(places.ring).subspan(first, columns)});
+// Returns the samples that four by four taps around the places without a height lie on; empty if there is none.
+GridRect tapsAround(const PlacesOnGrid& onGrid, std::span<const float> heights) {
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    std::int64_t left = most;
+    std::int64_t top = most;
+    std::int64_t right = -most;
+    std::int64_t bottom = -most;
+    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
+        if (!std::isnan(heights[onGrid.index[i]])) continue;
+        const std::int64_t column = firstTap(onGrid.column[i], 1);
+        const std::int64_t row = firstTap(onGrid.row[i], 1);
+        left = std::min(left, column);
+        top = std::min(top, row);
+        right = std::max(right, column);
+        bottom = std::max(bottom, row);
     }
-    places.spacingRad = std::numbers::pi / 2 / filterCellsOf(piece);
-    places.tile = piece;
-    places.centre = directionOf(piece.face, piece.faceCells, piece.firstColumn + piece.columns / 2,
-                                piece.firstRow + piece.rows / 2);
-    // A cell of a face is at most 2 / cells radians long, and half the diagonal of a piece has the middle.
-    places.radiusRad = 2.0 / piece.faceCells * std::hypot(piece.columns + 1, piece.rows + 1) / 2;
-    return places;
+    if (left == most) return {};
+    const int taps = tapCount(1);
+    return {left, top, right + taps - left, bottom + taps - top};
 }
 
+// Does for places whose kernel covers four by four samples of the full resolution what fillPositions does.
+Result<void> fillUnstretched(const RasterMosaic& mosaic, const PlacesOnGrid& onGrid, const GridRect& taps,
+                             std::span<float> heights) {
+    RegionSamples samples{taps, std::vector<float>(static_cast<std::size_t>(taps.columns * taps.rows))};
+    TRY(mosaic.read({}, taps, samples.heights));
+    PositionFilter filter;
+    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
+        float& height = heights[onGrid.index[i]];
+        if (!std::isnan(height)) continue;
+        const double column = onGrid.column[i];
+        const double row = onGrid.row[i];
+        const GridCell nearest = nearestIn(mosaic.bounds(), column, row);
+        if (std::isnan(*samples.at(nearest.column, nearest.row))) continue;
+        height = filter.filtered(
+            samples,
+            {.column = column, .row = row, .firstColumn = firstTap(column, 1), .firstRow = firstTap(row, 1)});
+    }
+    return {};
+}
+
+}  // namespace
+
 GridCell nearestSample(const RasterMosaic& mosaic, double column, double row) {
-    const GridRect& bounds = mosaic.bounds();
-    return {std::clamp(roundedOf(column), bounds.column, bounds.column + bounds.columns - 1),
-            std::clamp(roundedOf(row), bounds.row, bounds.row + bounds.rows - 1)};
+    return nearestIn(mosaic.bounds(), column, row);
 }
 
 namespace {
@@ -369,8 +394,10 @@ void convertPlaces(const RasterArea& area, const PiecePlaces& places, std::span<
                    std::span<double> row) {
     const RasterPlacement& placement = area.mosaic.placement();
     const int latticeCells = latticeCellsOf(area, places);
-    if (latticeCells == 0) return placement.toGrid(places.longitudeRad, places.latitudeRad, column, row);
-    std::vector<std::size_t> wanted(places.longitudeRad.size());
+    if (latticeCells == 0)
+        return placement.toGrid(places.geographic().longitudeRad, places.geographic().latitudeRad, column,
+                                row);
+    std::vector<std::size_t> wanted(places.count());
     std::iota(wanted.begin(), wanted.end(), std::size_t{0});
     const auto exact = [&](std::span<const double> longitudes, std::span<const double> latitudes,
                            std::span<double> columns, std::span<double> rows) {
@@ -382,9 +409,9 @@ void convertPlaces(const RasterArea& area, const PiecePlaces& places, std::span<
 }  // namespace
 
 PlacesOnGrid placesOnGrid(const RasterArea& area, const PiecePlaces& places) {
-    const double apart = std::acos(std::clamp(glm::dot(area.centre, places.centre), -1.0, 1.0));
-    if (apart > area.radiusRad + places.radiusRad) return {};
-    const std::size_t count = places.longitudeRad.size();
+    const double apart = std::acos(std::clamp(glm::dot(area.centre, places.centre()), -1.0, 1.0));
+    if (apart > area.radiusRad + places.radiusRad()) return {};
+    const std::size_t count = places.count();
     PlacesOnGrid all{std::vector<std::size_t>(count), std::vector<double>(count), std::vector<double>(count)};
     convertPlaces(area, places, all.column, all.row);
     std::size_t kept = 0;
@@ -405,7 +432,15 @@ PlacesOnGrid placesOnGrid(const RasterArea& area, const PiecePlaces& places) {
 
 Result<void> fillFrom(const RasterArea& area, const PiecePlaces& places, const PlacesOnGrid& onGrid,
                       std::span<float> heightsM) {
-    for (const auto& [region, positions] : positionsOf(area, places, onGrid, heightsM))
+    const std::vector<SampleDensity> densities = densitiesFor(area, places, onGrid.index);
+    // Most places of a grid that is finer than the raster's take this short way to the same heights.
+    if (densities.empty() && area.mosaic.period() == 0) {
+        const GridRect taps = tapsAround(onGrid, heightsM);
+        if (taps.columns == 0) return {};
+        if (taps.columns * taps.rows <= mostRegionSamples)
+            return fillUnstretched(area.mosaic, onGrid, taps, heightsM);
+    }
+    for (const auto& [region, positions] : positionsOf(area, places, onGrid, densities, heightsM))
         TRY(fillPositions(area.mosaic, region.reduction, positions, heightsM));
     return {};
 }

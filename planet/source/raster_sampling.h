@@ -17,9 +17,6 @@
 
 namespace planet {
 
-// Returns the places of the samples of a piece.
-PiecePlaces placesOf(const SampleTile& piece);
-
 // The places of a piece that lie on a tile of a mosaic, and where on its grid. Columns are those of the turn
 // around the middle of the mosaic.
 struct PlacesOnGrid {

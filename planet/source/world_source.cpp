@@ -103,17 +103,19 @@ Result<void> treatVoids(const WorldLayer& layer, const RasterArea& area, const P
 // Returns the shift of each place from the datum of a layer to that of the planet; empty if there is none.
 std::vector<double> shiftsAt(const WorldPart& part, const PiecePlaces& places) {
     if (!part.shift) return {};
-    std::vector<double> shifts(places.longitudeRad.size());
-    part.shift->at(places.longitudeRad, places.latitudeRad, shifts);
+    std::vector<double> shifts(places.count());
+    part.shift->at(places.geographic().longitudeRad, places.geographic().latitudeRad, shifts);
     return shifts;
 }
 
-Result<void> checkShift(const WorldLayer& layer, double shiftM, const Geographic& place) {
+// Checks the shift of place i.
+Result<void> checkShift(const WorldLayer& layer, double shiftM, const PiecePlaces& places, std::size_t i) {
     if (std::isfinite(shiftM)) return {};
     return badInput(fmt::format(
         "layer \"{}\": PROJ's grid of its datum or of the planet's has no value at {:.4f} N, {:.4f} E; "
         "expected a grid of the whole planet, or offset_m in the layer instead of the grid",
-        layer.name, place.latitudeRad * degPerRad, place.longitudeRad * degPerRad));
+        layer.name, places.geographic().latitudeRad[i] * degPerRad,
+        places.geographic().longitudeRad[i] * degPerRad));
 }
 
 // The heights of the places of a piece, and the quanta that they need, metres; none if they are not wanted.
@@ -139,7 +141,7 @@ Result<void> joinHeights(const WorldPart& part, const PiecePlaces& places, std::
     for (std::size_t i = 0; i < heights.size(); ++i) {
         if (std::isnan(heights[i])) continue;
         const double shiftM = shifts.empty() ? 0 : shifts[i];
-        TRY(checkShift(part.layer, shiftM, {places.latitudeRad[i], places.longitudeRad[i]}));
+        TRY(checkShift(part.layer, shiftM, places, i));
         world.heightsM[i] = joined(part.layer, world.heightsM[i], heights[i], shiftM, weight(i));
         if (!world.neededM.empty()) joinQuantum(part.layer, quantum(i), weight(i), world.neededM[i]);
     }
@@ -189,7 +191,7 @@ Result<void> joinSource(const WorldPart& part, const HeightSource& source, const
 // needed: where the quanta that the heights need are wanted, for the same places as out; else null.
 Result<void> samplePiece(const World& world, const SampleTile& piece, double radiusM, float* out,
                          float* needed, std::size_t stride) {
-    const PiecePlaces places = placesOf(piece);
+    const PiecePlaces places(piece);
     const std::size_t count = samplesIn(piece);
     PieceHeights heights{std::vector<float>(count, static_cast<float>(world.fillM)),
                          std::vector<float>(needed ? count : 0, static_cast<float>(noQuantumM)), radiusM};
@@ -215,7 +217,7 @@ Result<void> convertReading(const WorldPart& part, const PiecePlaces& places, So
     if (!reading.heightM) return {};
     const std::vector<double> shifts = shiftsAt(part, places);
     const double shiftM = shifts.empty() ? 0 : shifts[0];
-    TRY(checkShift(part.layer, shiftM, {places.latitudeRad[0], places.longitudeRad[0]}));
+    TRY(checkShift(part.layer, shiftM, places, 0));
     reading.heightM = convertedM(part.layer, *reading.heightM, shiftM);
     return {};
 }
@@ -241,7 +243,7 @@ Result<SourceReading> readingOf(const WorldPart& part, const RasterPart& rasters
 // Appends the readings of a part: of the layer, or of all layers that its detail refines.
 Result<void> appendReadings(const WorldPart& part, const Geographic& place,
                             std::vector<SourceReading>& readings) {
-    const PiecePlaces places = placesOf(place);
+    const PiecePlaces places(place);
     if (const auto* const rasters = std::get_if<std::unique_ptr<RasterPart>>(&part.content)) {
         TRY_ASSIGN(auto reading, readingOf(part, **rasters, places));
         // The first raster of a layer with a height counts, or else the first one that lies there.
@@ -456,8 +458,7 @@ private:
         TRY_ASSIGN(const auto files, filesOfLayer(layer));
         if (layer.place) return addPlaced(layer, files[0]);
         // An image of the whole planet or six faces; anything else is georeferenced.
-        if (layer.files.size() == 1 && files == layer.files &&
-            coversPlanet(files[0], settings_.colourChannel))
+        if (layer.files.size() == 1 && files == layer.files && coversPlanet(files[0], settings_))
             return addImage(layer, files[0]);
         return addRasters(layer, files);
     }

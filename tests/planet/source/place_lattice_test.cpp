@@ -77,14 +77,15 @@ TEST(PlaceLattice, PlacesAreWithinAFiveHundredthOfASample) {
             const RasterArea area = flatAreaAround(place.epsg, place.longitudeDeg, place.latitudeDeg, step);
             // The finest grid that a raster needs, and one twice as fine.
             for (const int faceCells : {area.faceCells, std::min(2 * area.faceCells, test::finest)}) {
-                const PiecePlaces piece =
-                    placesOf(latticePieceAround(place.longitudeDeg, place.latitudeDeg, faceCells, 65));
+                const PiecePlaces piece(
+                    latticePieceAround(place.longitudeDeg, place.latitudeDeg, faceCells, 65));
                 const PlacesOnGrid found = placesOnGrid(area, piece);
                 ASSERT_GT(found.index.size(), 200u) << place.name << " " << step;
                 EXPECT_GT(latticeCellsFor(faceCells, area.samplesPerRad), 0) << place.name << " " << step;
-                std::vector<double> columns(piece.longitudeRad.size());
+                std::vector<double> columns(piece.count());
                 std::vector<double> rows(columns.size());
-                area.mosaic.placement().toGrid(piece.longitudeRad, piece.latitudeRad, columns, rows);
+                area.mosaic.placement().toGrid(piece.geographic().longitudeRad,
+                                               piece.geographic().latitudeRad, columns, rows);
                 double most = 0;
                 for (std::size_t i = 0; i < found.index.size(); ++i) {
                     const double around = area.mosaic.placement().columnsAround();
@@ -107,10 +108,10 @@ TEST(PlaceLattice, PlaceIsTheSameInEveryPieceAndOnEveryGrid) {
     SampleTile whole = latticePieceAround(44.9, 35.2, filterCells, 129);
     whole.firstColumn = whole.firstColumn / 8 * 8;
     whole.firstRow = whole.firstRow / 8 * 8;
-    const PlacesOnGrid all = placesOnGrid(area, placesOf(whole));
+    const PlacesOnGrid all = placesOnGrid(area, PiecePlaces(whole));
     ASSERT_EQ(all.index.size(), samplesIn(whole));
     const auto expectSame = [&](const SampleTile& part, int apart) {
-        const PlacesOnGrid found = placesOnGrid(area, placesOf(part));
+        const PlacesOnGrid found = placesOnGrid(area, PiecePlaces(part));
         ASSERT_EQ(found.index.size(), samplesIn(part));
         for (std::size_t i = 0; i < found.index.size(); ++i) {
             const int column = static_cast<int>(i) % part.columns + part.firstColumn;
