@@ -1,5 +1,5 @@
-# find_package(planet): targets planet::planet (the runtime), planet::planet_bake with planet::planet_images,
-# planet::planet_measure and planet::planet_gl.
+# find_package(planet): targets planet::planet (the runtime), planet::planet_bake with planet::planet_rasters and
+# planet::planet_images, planet::planet_measure and planet::planet_gl.
 include(CMakeFindDependencyMacro)
 find_dependency(PkgConfig)
 find_dependency(Threads)

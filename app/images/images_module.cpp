@@ -1,24 +1,30 @@
 // The module worldy_images.so.
 #include "app/images/image_functions.h"
 
-extern "C" [[gnu::visibility("default")]] const worldy::ImageModule worldyImageModule;
+using planet::ImageFile;
+using Module = worldy::FunctionModule<worldy::ImageFunctions>;
 
-extern "C" const worldy::ImageModule worldyImageModule = {{WORLDY_VERSION},
-                                                          {
-                                                              .openHeightSource = planet::openHeightSource,
-                                                              .isGeoreferenced = planet::isGeoreferenced,
-                                                              .checkedVrt = planet::checkedVrt,
-                                                              .isImageExtension = planet::isImageExtension,
-                                                              .writeLevelImages = planet::writeLevelImages,
-                                                              .readPicture = worldy::readPicture,
-                                                              .readPlanetPicture = worldy::readPlanetPicture,
-                                                              .readPictureText = worldy::readPictureText,
-                                                              .writePicture = worldy::writePicture,
-                                                              .checkPictureName = worldy::checkPictureName,
-                                                              .isOwnPicture = worldy::isOwnPicture,
-                                                              .readTexture = worldy::readTexture,
-                                                              .writeTexture = worldy::writeTexture,
-                                                              .writeGrey16 = worldy::writeGrey16,
-                                                              .plotSweep = worldy::plotSweep,
-                                                              .drawSuggestPage = worldy::drawSuggestPage,
-                                                          }};
+extern "C" [[gnu::visibility("default")]] const Module worldyImageModule;
+
+extern "C" const Module worldyImageModule = {
+    {WORLDY_VERSION},
+    {
+        .openImageFile = ImageFile::open,
+        .readTile = [](ImageFile& file, int x, int y,
+                       std::span<std::byte> native) { return file.readTile(x, y, native); },
+        .readRows = [](ImageFile& file, int firstRow, int count,
+                       std::span<std::byte> native) { return file.readRows(firstRow, count, native); },
+        .isImageExtension = planet::isImageExtension,
+        .writeLevelImages = planet::writeLevelImages,
+        .readPicture = worldy::readPicture,
+        .readPlanetPicture = worldy::readPlanetPicture,
+        .readPictureText = worldy::readPictureText,
+        .writePicture = worldy::writePicture,
+        .checkPictureName = worldy::checkPictureName,
+        .isOwnPicture = worldy::isOwnPicture,
+        .readTexture = worldy::readTexture,
+        .writeTexture = worldy::writeTexture,
+        .writeGrey16 = worldy::writeGrey16,
+        .plotSweep = worldy::plotSweep,
+        .drawSuggestPage = worldy::drawSuggestPage,
+    }};

@@ -317,20 +317,6 @@ Result<void> takeAuxiliary(const std::filesystem::path& image, GeoTags& tags) {
 
 }  // namespace
 
-std::optional<double> metresIn(const std::string& unit) {
-    const std::string name = lowerCase(unit);
-    for (const char* metre : {"", "m", "metre", "meter", "metres", "meters"}) {
-        if (name == metre) return 1;
-    }
-    for (const char* foot : {"ft", "foot", "feet", "international foot"}) {
-        if (name == foot) return 0.3048;
-    }
-    for (const char* foot : {"us-ft", "ftus", "us survey foot", "us survey feet", "foot_us"}) {
-        if (name == foot) return 1200.0 / 3937;
-    }
-    return std::nullopt;
-}
-
 Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff) {
     Result<GeoTags> tags = isTiff ? readGeoTags(image) : GeoTags();
     if (!tags) return tags;

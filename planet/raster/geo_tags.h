@@ -48,9 +48,6 @@ struct GeoTags {
 // similar) or GDAL's .aux.xml. isTiff: the file itself has tags.
 Result<GeoTags> geoTagsOf(const std::filesystem::path& image, bool isTiff);
 
-// Returns one unit in metres, by its name in tags; nothing for an unknown name. An empty name means metres.
-std::optional<double> metresIn(const std::string& unit);
-
 // Reads the tags of a TIFF file. The Error says that the file cannot be read, or that its tags are
 // inconsistent.
 Result<GeoTags> readGeoTags(const std::filesystem::path& path);

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "planet/base/try.h"
 #include "planet/raster/height_raster.h"
+#include "planet/raster/image_names.h"
 
 namespace planet {
 
@@ -16,6 +19,21 @@ namespace {
 double asStored(double value, SampleType type) {
     const bool fits = std::abs(value) <= 3.4028235e38;
     return type == SampleType::Float && fits ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
+// Returns one unit in metres, by its name in tags; nothing for an unknown name. An empty name means metres.
+std::optional<double> metresIn(const std::string& unit) {
+    const std::string name = lowerCase(unit);
+    for (const char* metre : {"", "m", "metre", "meter", "metres", "meters"}) {
+        if (name == metre) return 1;
+    }
+    for (const char* foot : {"ft", "foot", "feet", "international foot"}) {
+        if (name == foot) return 0.3048;
+    }
+    for (const char* foot : {"us-ft", "ftus", "us survey foot", "us survey feet", "foot_us"}) {
+        if (name == foot) return 1200.0 / 3937;
+    }
+    return std::nullopt;
 }
 
 // Applies the file's scale, offset and unit, unless the settings override them.

@@ -153,11 +153,6 @@ PLANET_CPU_CLONES void convertLinearSamples(const HeightConversion& conversion, 
 
 }  // namespace
 
-std::size_t bytesOf(SampleType type) {
-    constexpr std::array<std::size_t, sampleTypeCount> bytes = {1, 1, 2, 2, 4, 4, 4, 8};
-    return bytes[static_cast<std::size_t>(type)];
-}
-
 void addTo(HeightStatistics& sum, const HeightStatistics& part) {
     sum.minM = std::min(sum.minM, part.minM);
     sum.maxM = std::max(sum.maxM, part.maxM);

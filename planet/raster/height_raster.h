@@ -2,6 +2,7 @@
 // others are read block by block through a cache of bounded size. Internal to the library.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -27,7 +28,10 @@ namespace planet {
 
 enum class SampleType : std::uint8_t { Uint8, Int8, Uint16, Int16, Uint32, Int32, Float, Double };
 inline constexpr std::size_t sampleTypeCount = 8;
-std::size_t bytesOf(SampleType type);
+inline std::size_t bytesOf(SampleType type) {
+    constexpr std::array<std::size_t, sampleTypeCount> bytes = {1, 1, 2, 2, 4, 4, 4, 8};
+    return bytes[static_cast<std::size_t>(type)];
+}
 
 // The conversion of stored values to metres.
 struct HeightConversion {

@@ -1,5 +1,5 @@
-// The program loads image libraries only when it opens an image (app/images/image_functions.h), and MPI only as one of
-// several ranks.
+// The program loads the libraries of rasters and of images only when it opens one (app/images/image_functions.h), and MPI
+// only as one of several ranks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// Runs a copy of the program, which has no module beside it, to bake an image.
-Ran bakeWithoutModule(const TemporaryFolder& folder) {
+const std::filesystem::path modules = std::filesystem::path(WORLDY_BINARY).parent_path();
+
+// Runs a copy of the program to bake an image. Beside it are only the modules that the folder has already.
+Ran bakeCopied(const TemporaryFolder& folder) {
     writeHills(folder);
     std::filesystem::copy_file(WORLDY_BINARY, folder / "worldy");
     return runShell(folder, "./worldy bake hills.pgm -o planet.chk");
@@ -36,9 +38,9 @@ TEST(ImageModule, theProgramStartsWithoutImageLibraries) {
 
 TEST(ImageModule, aMissingModuleIsNamed) {
     const TemporaryFolder folder;
-    const Ran ran = bakeWithoutModule(folder);
+    const Ran ran = bakeCopied(folder);
     EXPECT_EQ(ran.exitCode, 2);
-    EXPECT_THAT(ran.errors, AllOf(HasSubstr("worldy_images.so: cannot be loaded"), HasSubstr("expected")));
+    EXPECT_THAT(ran.errors, AllOf(HasSubstr("worldy_rasters.so: cannot be loaded"), HasSubstr("expected")));
     EXPECT_FALSE(std::filesystem::exists(folder / "planet.chk"));
 
     bakePlanet(folder);
@@ -46,6 +48,26 @@ TEST(ImageModule, aMissingModuleIsNamed) {
     EXPECT_EQ(shot.exitCode, 2);
     EXPECT_THAT(shot.errors, HasSubstr("worldy_images.so: cannot be loaded"));
     EXPECT_FALSE(std::filesystem::exists(folder / "shot.png"));
+}
+
+// The module of rasters reads images with the other module.
+TEST(ImageModule, sourcesThatAreImagesNameTheOtherModule) {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(modules / "worldy_rasters.so", folder / "worldy_rasters.so");
+    const Ran ran = bakeCopied(folder);
+    EXPECT_EQ(ran.exitCode, 2);
+    EXPECT_THAT(ran.errors, HasSubstr("worldy_images.so: cannot be loaded"));
+}
+
+// OpenImageIO takes five times as long to load as GDAL.
+TEST(ImageModule, aRasterIsBakedWithoutTheModuleOfImages) {
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(modules / "worldy_rasters.so", folder / "worldy_rasters.so");
+    std::filesystem::copy_file(WORLDY_BINARY, folder / "worldy");
+    const Ran ran = runShell(
+        folder, "./worldy bake '" WORLDY_SOURCE_DIR
+                "/data/regions/S33W071.tif' --face-size 1025 -o andes.chk && ./worldy info andes.chk");
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
 }
 
 // A process that mpirun has started must not bake alone, or each rank would write the same file.
@@ -60,19 +82,22 @@ TEST(MpiModule, aRankWithoutTheModuleIsTold) {
 }
 
 TEST(ImageModule, aFileThatIsNoModuleIsRefused) {
-    const TemporaryFolder folder;
-    std::ofstream(folder / "worldy_images.so") << "no library";
-    const Ran ran = bakeWithoutModule(folder);
-    EXPECT_EQ(ran.exitCode, 2);
-    EXPECT_THAT(ran.errors, HasSubstr("worldy_images.so: cannot be loaded"));
+    for (const char* const module : {"worldy_rasters.so", "worldy_images.so"}) {
+        const TemporaryFolder folder;
+        std::filesystem::copy_file(modules / "worldy_rasters.so", folder / "worldy_rasters.so");
+        std::ofstream(folder / module) << "no library";
+        const Ran ran = bakeCopied(folder);
+        EXPECT_EQ(ran.exitCode, 2);
+        EXPECT_THAT(ran.errors, HasSubstr(std::string(module) + ": cannot be loaded"));
+    }
 }
 
 TEST(ImageModule, aLibraryThatIsNotWorldysIsRefused) {
     const TemporaryFolder folder;
-    std::filesystem::copy_file(FAKE_JOYSTICK_LIBRARY, folder / "worldy_images.so");
-    const Ran ran = bakeWithoutModule(folder);
+    std::filesystem::copy_file(FAKE_JOYSTICK_LIBRARY, folder / "worldy_rasters.so");
+    const Ran ran = bakeCopied(folder);
     EXPECT_EQ(ran.exitCode, 2);
-    EXPECT_THAT(ran.errors, HasSubstr("worldy_images.so: cannot be loaded"));
+    EXPECT_THAT(ran.errors, HasSubstr("worldy_rasters.so: cannot be loaded"));
 }
 
 TEST(ImageModule, aChunkFileIsReadWithoutTheModule) {

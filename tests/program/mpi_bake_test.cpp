@@ -191,7 +191,7 @@ TEST(MpiBake, aRankOfAnotherBuildIsNamed) {
     const TemporaryFolder folder;
     const fs::path other = folder / "other";
     fs::create_directories(other);
-    for (const char* name : {"worldy", "worldy_images.so", "worldy_mpi.so"})
+    for (const char* name : {"worldy", "worldy_images.so", "worldy_rasters.so", "worldy_mpi.so"})
         fs::copy_file(fs::path(WORLDY_BINARY).parent_path() / name, other / name);
     // A byte after the end of the program changes nothing but its hash.
     std::ofstream(other / "worldy", std::ios::app) << "x";
