@@ -18,7 +18,8 @@ notes          8000  8000
 flight_record  2000  20000
 raw_faces      8000  1200
 raster         1500  20000
-trace          8000  8000"
+trace          8000  8000
+atlas          4000  8000"
 
 # run_one NAME SHORT_RUNS LONGEST SECONDS: one fuzzer, 0 seconds for the short run; its output goes to a log.
 run_one() {

@@ -59,6 +59,7 @@ inline constexpr std::size_t mostAtlasAltitudes = 16;
 inline constexpr int mostAtlasHeadings = 36;
 inline constexpr std::size_t mostAtlasViewpoints = 1'000'000;
 inline constexpr int finestAtlasLevel = 14;
+inline constexpr std::size_t atlasBatch = 32;  // most viewpoints that are recorded together
 
 // How viewpoints are chosen (atlas_sampling.h).
 struct AtlasGrid {

@@ -26,7 +26,6 @@
 #include "planet/base/result.h"
 #include "planet/base/try.h"
 #include "planet/measure/atlas.h"
-#include "planet/measure/atlas_run.h"
 #include "planet/measure/atlas_tree.h"
 #include "planet/sphere/chunk_id.h"
 #include "planet/sphere/cube_sphere.h"
@@ -243,13 +242,15 @@ Result<AtlasTree> treeFrom(std::span<const std::byte> content, const std::string
     return tree;
 }
 
-bool isGood(const AtlasViewpoint& viewpoint, const AtlasGrid& grid) {
+bool isGood(const AtlasViewpoint& viewpoint, const AtlasSurvey& survey) {
+    const AtlasGrid& grid = survey.grid;
     const AtlasPlace& place = viewpoint.place;
     if (static_cast<int>(place.cell.face) >= faceCount || place.cell.level > grid.finestLevel) return false;
     const std::uint32_t cells = 1u << place.cell.level;
     if (place.cell.x >= cells || place.cell.y >= cells) return false;
     if (place.altitude >= grid.altitudesM.size() || place.heading >= grid.headings) return false;
-    if (!isBetween(viewpoint.eyeM, -1e12, 1e13)) return false;
+    // A camera needs an eye above the planet's centre.
+    if (!isBetween(viewpoint.eyeM, -survey.radiusM, 1e13) || viewpoint.eyeM == -survey.radiusM) return false;
     return std::all_of(viewpoint.figures.begin(), viewpoint.figures.end(),
                        [](double figure) { return std::isnan(figure) || isBetween(figure, 0, 1e300); });
 }
@@ -273,7 +274,7 @@ Result<void> addViewpoints(std::span<const std::byte> content, const std::string
         place.cell.y = in.get<std::uint32_t>();
         viewpoint.eyeM = in.get<double>();
         for (double& figure : viewpoint.figures) figure = in.get<double>();
-        if (!isGood(viewpoint, atlas.survey.grid))
+        if (!isGood(viewpoint, atlas.survey))
             return badInput(fmt::format("{}: viewpoint {} is damaged", name, atlas.viewpoints.size()));
         atlas.viewpoints.push_back(viewpoint);
     }

@@ -30,7 +30,6 @@ struct AtlasWatch {
     // round. An Error ends the survey.
     std::function<Result<void>(std::span<const AtlasViewpoint>)> take;
 };
-inline constexpr std::size_t atlasBatch = 32;
 
 struct AtlasRun {
     AtlasCosts costs;            // of all threads together

@@ -8,10 +8,13 @@
 #include <functional>
 #include <vector>
 
+#include "planet/base/result.h"
 #include "planet/measure/atlas.h"
-#include "planet/planet.h"
+#include "planet/sphere/chunk_id.h"
 
 namespace planet {
+
+struct PlanetSource;
 
 // Chunks below this level are summarised in the digest of their ancestor of this level.
 inline constexpr int deepestAtlasTreeLevel = 8;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -20,8 +21,10 @@
 #include "planet/bake/bake.h"
 #include "planet/bake/colour_tile_sampling.h"
 #include "planet/format/height_codec.h"
+#include "planet/measure/atlas_file.h"
 #include "planet/source/colour_source.h"
 #include "planet/source/height_source.h"
+#include "planet/sphere/planet_shape.h"
 #include "planet/sphere/view.h"
 #include "planet/trace/lod_trace.h"
 #include "planet/trace/trace_format.h"
@@ -384,6 +387,65 @@ void traces(const fs::path& folder) {
     write(folder / "content", traceContent(read(file)));
 }
 
+// ---- atlases ----
+
+AtlasViewpoint madeViewpoint(int i) {
+    AtlasViewpoint viewpoint;
+    viewpoint.place = {{allFaces[static_cast<std::size_t>(i / 2 % 6)], 0, 0, 0}, 0, i % 2 == 0};
+    if (i >= 12) viewpoint.place.cell = childOf(viewpoint.place.cell, i % 4);
+    viewpoint.eyeM = 1000.0 * i;
+    for (std::size_t measure = 0; measure < atlasMeasureCount; ++measure)
+        viewpoint.figures[measure] =
+            measure == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(measure) * i;
+    return viewpoint;
+}
+
+// Writes the records of an atlas as atlas_fuzz.cpp seals them.
+Bytes atlasContent(std::span<const std::byte> file) {
+    constexpr std::size_t headerBytes = 16, recordHeadBytes = 16;
+    Bytes content;
+    ByteWriter out(content);
+    for (std::size_t at = headerBytes; at < file.size();) {
+        const auto bytes = readLittleEndian<std::uint32_t>(file.data() + at + 4);
+        out.put(static_cast<std::uint8_t>(readLittleEndian<std::uint32_t>(file.data() + at)));
+        out.put(static_cast<std::uint16_t>(bytes));
+        const auto record = file.subspan(at + recordHeadBytes, bytes);
+        content.insert(content.end(), record.begin(), record.end());
+        at += recordHeadBytes + bytes;
+    }
+    return content;
+}
+
+void atlases(const fs::path& folder) {
+    fs::create_directories(folder);
+    AtlasSurvey survey;
+    survey.bake = "earth.chk";
+    survey.radiusM = earthRadiusM;
+    survey.settings = "lod.tau_px=2\n";
+    survey.grid.altitudesM = {200};
+    survey.grid.headings = 2;
+    survey.grid.most = 100;
+    AtlasTree tree;
+    for (int root = 0; root < faceCount; ++root) {
+        tree.chunks.push_back({.deltaCM = 100, .digest = 1, .hasChildren = root == 0});
+        if (root > 0) continue;
+        for (int child = 0; child < quadrantCount; ++child)
+            tree.chunks.push_back({.deltaCM = 10, .digest = 2, .isSummary = child == 3});
+    }
+    std::vector<AtlasViewpoint> viewpoints;
+    for (int i = 0; i < 20; ++i) viewpoints.push_back(madeViewpoint(i));
+    const auto made = [&](const std::string& name, const AtlasTree& of) {
+        AtlasWriter writer = must(AtlasWriter::create(folder / name, survey, of));
+        must(writer.append(std::span(viewpoints).first(12)));
+        must(writer.append(std::span(viewpoints).subspan(12)));
+        must(writer.finish());
+        write(folder / ("content_of_" + name), atlasContent(read(folder / name)));
+    };
+    made("made.atlas", tree);
+    survey.isRevisit = true;
+    made("without_tree.atlas", {});
+}
+
 void notes(const fs::path& folder) {
     const std::string text = R"(format = 1
 
@@ -425,5 +487,6 @@ int main(int argc, char** argv) {
     rawFaces(folder / "raw_faces");
     rasters(folder / "raster");
     traces(folder / "trace");
+    atlases(folder / "atlas");
     return EXIT_SUCCESS;
 }

@@ -394,6 +394,8 @@ TEST_F(AtlasFile, BadValuesAreRefused) {
     EXPECT_THAT(problemWith([](AtlasSurvey&, AtlasViewpoint& v) { v.figures[1] = -1; }), HasSubstr(damaged));
     EXPECT_THAT(problemWith([](AtlasSurvey&, AtlasViewpoint& v) { v.figures[3] = INFINITY; }),
                 HasSubstr(damaged));
+    EXPECT_THAT(problemWith([](AtlasSurvey& s, AtlasViewpoint& v) { v.eyeM = -s.radiusM; }),
+                HasSubstr(damaged));
 }
 
 TEST_F(AtlasFile, HasOneWriterAtATime) {
