@@ -20,8 +20,14 @@ constexpr double creepForesightS = 0.3;
 constexpr double mostGrowthPerS = 1;
 constexpr double leastStep = 0.1;  // a larger change of a level in one frame is a step, which tells no growth
 constexpr double forgetS = 30;     // of the changes from which elasticity is estimated
-constexpr double priorWeight = 0.01;  // of elasticity 1, as a sum of squares
+constexpr double priorWeight = 0.01;  // of the expected elasticity, as a sum of squares
+// Part of any time does not follow the triangles. A rise that expected nothing of that would end above the budget after a
+// large step, and the next one could begin only when this one had been measured.
+constexpr double expectedAtRise = 0.9;
 constexpr double leastChange = 0.05;  // of ln triangles that tells elasticity
+// A larger change counts as one of this size, because it tells the mean elasticity between two far ends, and not that
+// near the budget.
+constexpr double mostChange = 0.1;
 constexpr double leastElasticity = 0.4;
 constexpr double leastExponent = 0.25;
 constexpr double mostExponent = 4;
@@ -183,28 +189,31 @@ void noteElasticity(GovernorState::Elasticity& known, double lnTriangles, double
     if (known.known) {
         // A larger change of the time has another reason.
         const double y = std::clamp(lnCost - known.lnCost, -2 * std::abs(x), 2 * std::abs(x));
-        known.sumXX += x * x;
-        known.sumXY += x * y;
+        const double share = std::min(mostChange / std::abs(x), 1.0);
+        known.sumXX += share * share * x * x;
+        known.sumXY += share * share * x * y;
     }
     known.lnTriangles = lnTriangles;
     known.lnCost = lnCost;
     known.known = true;
 }
 
-double elasticityOf(const GovernorState::Elasticity& known) {
-    return std::clamp((known.sumXY + priorWeight) / (known.sumXX + priorWeight), leastElasticity, 1.0);
+// Returns the elasticity by the changes so far; expected: before any.
+double elasticityOf(const GovernorState::Elasticity& known, double expected) {
+    return std::clamp((known.sumXY + priorWeight * expected) / (known.sumXX + priorWeight), leastElasticity,
+                      1.0);
 }
 
 // How a cost follows τ, and the bounds of the ln τ that it belongs to.
 struct Law {
     double exponent;
-    double elasticity;
+    double riseElasticity, fallElasticity;
     double leastX, mostX;
 };
 
 Law lawOf(GovernorState& state, GovernorBudget budget, double cost, const GovernorSample& sample,
           double elapsedS, const Rules& rules) {
-    Law law{exponentIn(sample, rules), 1, state.lnTau[0], state.lnTau[0]};
+    Law law{exponentIn(sample, rules), 1, 1, state.lnTau[0], state.lnTau[0]};
     if (budget == GovernorBudget::Reading) law.leastX = law.mostX = state.meanLnTau;
     if (!isTime(budget)) return law;
     // A median of three is one frame late.
@@ -216,14 +225,15 @@ Law lawOf(GovernorState& state, GovernorBudget budget, double cost, const Govern
     GovernorState::Elasticity& elasticity = state.elasticities[static_cast<std::size_t>(budget)];
     if (measured(sample.cost.triangles) > 0)
         noteElasticity(elasticity, state.lnTriangles[late], std::log(cost), elapsedS);
-    law.elasticity = elasticityOf(elasticity);
+    law.riseElasticity = elasticityOf(elasticity, expectedAtRise);
+    law.fallElasticity = elasticityOf(elasticity, 1);
     return law;
 }
 
 // Returns by how much ln τ must change for the cost to change by the factor exp(lnFactor).
-double moveFor(double lnFactor, const Law& law) {
+double moveFor(double lnFactor, double elasticity, const Law& law) {
     constexpr double leastTriangles = 0.1;  // share that one move leaves
-    return -std::log(std::max((std::exp(lnFactor) - 1) / law.elasticity + 1, leastTriangles)) / law.exponent;
+    return -std::log(std::max((std::exp(lnFactor) - 1) / elasticity + 1, leastTriangles)) / law.exponent;
 }
 
 // The ln τ that bring a cost to the ceiling, to the middle and to the floor of its band.
@@ -238,9 +248,10 @@ Demand demandOf(GovernorState& state, GovernorBudget budget, double cost, double
     const double lnUse = std::clamp(std::log(cost) - std::log(limit), -mostLn, mostLn);
     // Each chunk that waits becomes four.
     const double waiting = std::log1p(3 * within(sample.waitingShare, 0, 0, 1));
-    return {law.leastX + moveFor(rules.lnCeiling - lnUse - foresightS * growth, law),
-            law.leastX + moveFor(rules.lnMiddle - lnUse - creepForesightS * growth, law),
-            law.mostX + moveFor(rules.lnFloor - lnUse - foresightS * growth - waiting, law)};
+    const double rise = law.riseElasticity, fall = law.fallElasticity;
+    return {law.leastX + moveFor(rules.lnCeiling - lnUse - foresightS * growth, rise, law),
+            law.leastX + moveFor(rules.lnMiddle - lnUse - creepForesightS * growth, rise, law),
+            law.mostX + moveFor(rules.lnFloor - lnUse - foresightS * growth - waiting, fall, law)};
 }
 
 // Follows the speed at which reading lets τ fall, and returns it.

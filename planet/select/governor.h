@@ -16,10 +16,10 @@
 //     c = c now ((1 - e) + e triangles / triangles now)
 //
 // k is counted in the selection (exponentOf). e is the elasticity of a time with respect to the triangles, [0.4, 1], by
-// least squares over the changes of both in the last half minute; the rest of a time does not follow τ. For counts e is 1.
-// Therefore each sample gives the factor by which τ must change, and one change of τ corrects a step of the cost. With a wrong
-// exponent the error shrinks by the factor |1 - true / assumed| each time the cost responds, so it converges if the true
-// exponent is below twice the assumed one.
+// least squares over the changes of both in the last half minute; before any, a rise expects 0.9 and a fall 1. The rest of
+// a time does not follow τ. For counts e is 1. Therefore each sample gives the factor by which τ must change, and one change
+// of τ corrects a step of the cost. With a wrong exponent the error shrinks by the factor |1 - true / assumed| each time the
+// cost responds, so it converges if the true exponent is below twice the assumed one.
 //
 // A cost belongs to an older τ (Smith, "Closer control of loops with dead time", 1957). Two bounds of it are followed,
 // the smallest and the largest τ that a cost can belong to; τ rises by the smaller one and falls by the larger one, so

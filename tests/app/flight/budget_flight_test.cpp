@@ -73,11 +73,15 @@ struct CostModel {
 struct FlownFrame {
     double tauPx = 0;
     double triangles = 0;
+    std::uint64_t thrash = 0;  // until this frame
 };
 
 struct CostStep {
     double timeS = 1e9;
     double factor = 1;
+    double untilS = 1e9;
+
+    double factorAt(double at) const { return at >= timeS && at < untilS ? factor : 1; }
 };
 
 struct Flown {
@@ -85,6 +89,13 @@ struct Flown {
     std::vector<BudgetedFrame> budgeted;
     std::uint64_t thrash = 0;
 
+    // Returns the thrash without that of the second after a step. There, chunks that had just split must merge.
+    std::uint64_t thrashWithoutStep(double stepS) const {
+        const auto until = [&](double timeS) {
+            return frames[static_cast<std::size_t>(timeS / budgetFrameS)].thrash;
+        };
+        return thrash - (until(stepS + 1) - until(stepS));
+    }
     double medianTauPx() const {
         std::vector<double> taus;
         for (const FlownFrame& frame : frames) taus.push_back(frame.tauPx);
@@ -102,7 +113,7 @@ double useOf(const BudgetUse& use, double ms, const BudgetSettings& budget) {
     return most;
 }
 
-// Flies as the window does, with the budgets of the settings. A frame takes the time of the model, and from the step on
+// Flies as the window does, with the budgets of the settings. A frame takes the time of the model, and during the step
 // that times its factor.
 Flown fly(planet::Planet& planet, const FlightPath& path, ViewSettings settings, const CostModel& model,
           const CostStep& step = {}, Recorder* recorder = nullptr) {
@@ -125,8 +136,8 @@ Flown fly(planet::Planet& planet, const FlightPath& path, ViewSettings settings,
         stats.tauPx = settings.lod.tauPx;
         stats.selection = planet.selection().counters;
         const auto triangles = static_cast<double>(stats.selection.triangles());
-        stats.drawCpuMs = model.ms(triangles) * (timeS >= step.timeS ? step.factor : 1);
-        flown.frames.push_back({settings.lod.tauPx, triangles});
+        stats.drawCpuMs = model.ms(triangles) * step.factorAt(timeS);
+        flown.frames.push_back({settings.lod.tauPx, triangles, changes.thrashTotal()});
         governTau(governing, &stats, planet, budgetFrameS, settings);
         flown.budgeted.push_back(
             {timeS, useOf(governing.use, stats.drawCpuMs, settings.budget), governing.use.limit});
@@ -175,10 +186,11 @@ protected:
         EXPECT_LT(figures.atLowerLimit, figures.frames / 2) << "the budget is hardly tried";
     }
     // The same flight with the median of the tolerances, fixed.
-    static void expectNoMoreThrash(const Flown& flown, const FlightPath& path) {
+    static void expectNoMoreThrash(const Flown& flown, const FlightPath& path,
+                                   std::optional<double> stepS = {}) {
         ViewSettings fixed = settingsWith({});
         fixed.lod.tauPx = flown.medianTauPx();
-        EXPECT_LE(flown.thrash, flyAnew(path, fixed).thrash);
+        EXPECT_LE(stepS ? flown.thrashWithoutStep(*stepS) : flown.thrash, flyAnew(path, fixed).thrash);
     }
 
     static inline tests::TemporaryFolder* folder_ = nullptr;
@@ -240,6 +252,38 @@ TEST_F(BudgetFlights, aStepOfTheTimesIsSettledWithinHalfASecond) {
     const double settledS = settlingTimeS(flown.budgeted, step.timeS, step.timeS + 5);
     EXPECT_GT(settledS, 0);
     EXPECT_LT(settledS, 0.5);
+    expectNoMoreThrash(flown, flightB(), step.timeS);
+}
+
+// Returns the median use from one time to another.
+double medianUseOf(const std::vector<BudgetedFrame>& frames, double fromS, double untilS) {
+    std::vector<double> uses;
+    for (const BudgetedFrame& frame : frames) {
+        if (frame.timeS >= fromS && frame.timeS < untilS) uses.push_back(frame.use);
+    }
+    return planet::percentileOf(uses, 0.5);
+}
+
+// Chunks morph by one level in each fadeS, so that the largest steps take longer than half a second.
+TEST_F(BudgetFlights, largeStepsOfTheTimesAreSettledInAFadeForEachDoublingOfTheTolerance) {
+    constexpr CostModel model{.fixedMs = 0.2, .msPerMillion = 10};
+    for (const double factor : {3.0, 5.0}) {
+        const CostStep step{.timeS = 10, .factor = factor, .untilS = 20};
+        ViewSettings settings = settingsWith({.cpuMs = 2});
+        settings.budget.mostTauPx = 64;
+        const Flown flown = flyAnew(flightB(), settings, model, step);
+        const auto tauAt = [&](double timeS) {
+            return flown.frames[static_cast<std::size_t>(timeS / budgetFrameS)].tauPx;
+        };
+        const double doublings = std::ceil(std::log2(tauAt(step.timeS + 0.5) / tauAt(step.timeS - 0.1)));
+        const double settledS = settlingTimeS(flown.budgeted, step.timeS, step.untilS);
+        EXPECT_GT(settledS, 0) << factor;
+        EXPECT_LT(settledS, doublings * settings.lod.fadeS + 0.1) << factor;
+        EXPECT_GE(medianUseOf(flown.budgeted, step.timeS + 2, step.untilS), 0.85) << factor;
+        EXPECT_EQ(settlingTimeS(flown.budgeted, step.untilS, 30), 0) << factor;
+        EXPECT_GE(medianUseOf(flown.budgeted, step.untilS + 4, 30), 0.85) << factor;
+        expectNoMoreThrash(flown, flightB(), step.timeS);
+    }
 }
 
 TEST_F(BudgetFlights, aBudgetOfTrianglesIsKept) {
@@ -261,6 +305,7 @@ TEST_F(BudgetFlights, aBudgetOfReadingIsNeverExceeded) {
     const BudgetFigures figures = budgetFiguresOf(flown.budgeted);
     EXPECT_EQ(figures.over, 0);
     EXPECT_GT(figures.mostUse, 0.3);
+    expectNoMoreThrash(flown, flightB());
 }
 
 TEST_F(BudgetFlights, aFlightThatIsTooExpensiveIsOverBudgetAtTheUpperLimit) {

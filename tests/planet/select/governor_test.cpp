@@ -67,8 +67,9 @@ struct Plant {
     double trianglesAt1 = 1e6;
     double msPerTriangle = 4e-6;
     double fixedMs = 0;
-    double factor = 1;  // of all costs
-    double noise = 0;   // of times
+    double factor = 1;    // of all costs
+    double slowdown = 1;  // of times alone
+    double noise = 0;     // of times
     bool knowsExponent = false;
     std::size_t gpuFramesLate = 3;
 
@@ -81,15 +82,15 @@ struct Plant {
     double triangles = 0;
     double ms = 0;
 
-    void frame() {
+    void frame(double elapsedS = frameS) {
         triangles = factor * trianglesAt1 * engine.step(tauPx);
         const double spread = std::uniform_real_distribution(-noise, noise)(random);
-        ms = (factor * fixedMs + msPerTriangle * triangles) * (1 + spread);
+        ms = slowdown * (factor * fixedMs + msPerTriangle * triangles) * (1 + spread);
         gpuMs.push_back(ms);
         while (gpuMs.size() > gpuFramesLate + 1) gpuMs.pop_front();
         GovernorSample sample{.cost = {.cpuMs = ms, .gpuMs = gpuMs.front(), .triangles = triangles},
                               .tauPx = tauPx,
-                              .elapsedS = frameS};
+                              .elapsedS = elapsedS};
         last = govern(state, sample, settings);
         state = last.state;
         tauPx = last.tauPx;
@@ -133,6 +134,86 @@ TEST(Governor, settlesWithinHalfASecondOfAStepOfATimeThatArrivesLate) {
             plant, [](const Plant& p) { return p.ms; }, 4);
         EXPECT_GT(settledS, 0) << noise;
         EXPECT_LT(settledS, 0.5) << noise;
+    }
+}
+
+// Tells a plant, the factor that steps, and the cost that has a budget.
+struct Step {
+    const char* name;
+    Plant plant;
+    double Plant::*stepped;
+    double Plant::*cost;
+    double budget;
+};
+std::vector<Step> stepsOfCost() {
+    std::vector<Step> steps = {
+        {"triangles", {.settings = {.budget = {.triangles = 4e5}}}, &Plant::factor, &Plant::triangles, 4e5},
+        {"GPU time", {.settings = {.budget = {.gpuMs = 4}}, .fixedMs = 0.3}, &Plant::factor, &Plant::ms, 4},
+        {"slowdown", {.settings = {.budget = {.cpuMs = 4}}, .fixedMs = 0.3}, &Plant::slowdown, &Plant::ms, 4},
+        {"noisy time",
+         {.settings = {.budget = {.gpuMs = 4}}, .fixedMs = 0.3, .noise = 0.02},
+         &Plant::slowdown,
+         &Plant::ms,
+         4}};
+    // The step may need a larger tolerance than by default.
+    for (Step& step : steps) step.plant.settings.mostTauPx = 64;
+    return steps;
+}
+
+TEST(Governor, settlesAfterLargeStepsAndTheWayBackStaysWithinTheBudget) {
+    for (const double factor : {3.0, 5.0}) {
+        for (auto& [name, plant, stepped, cost, budget] : stepsOfCost()) {
+            const auto cost_ = [&](const Plant& p) { return p.*cost; };
+            plant.run(8);
+            ASSERT_LT(plant.*cost, budget) << name;
+            plant.*stepped = factor;
+            const double upS = settledAfterS(plant, cost_, budget);
+            EXPECT_GT(upS, 0) << name << factor;
+            EXPECT_LT(upS, 0.5) << name << factor;
+            plant.run(6);
+            EXPECT_GT(plant.*cost, 0.8 * budget) << name << factor;
+            plant.*stepped = 1;
+            int over = 0;
+            for (int i = 0; i < 480; ++i) {
+                plant.frame();
+                over += plant.*cost > budget;
+            }
+            EXPECT_EQ(over, 0) << name << factor;
+            EXPECT_GT(plant.*cost, 0.8 * budget) << name << factor;
+        }
+    }
+}
+
+// Nothing is known any more of which share of the time follows the triangles.
+TEST(Governor, settlesAfterALargeStepThatFollowsALongRest) {
+    for (const double factor : {3.0, 5.0}) {
+        Plant plant{.settings = {.budget = {.gpuMs = 4}, .mostTauPx = 64}, .fixedMs = 0.3};
+        plant.run(8);
+        for (int i = 0; i < 300; ++i) plant.frame(1);
+        plant.factor = factor;
+        const double settledS = settledAfterS(
+            plant, [](const Plant& p) { return p.ms; }, 4);
+        EXPECT_GT(settledS, 0) << factor;
+        EXPECT_LT(settledS, 0.5) << factor;
+    }
+}
+
+TEST(Governor, aStepIsFollowedByNoOscillation) {
+    for (const double factor : {1.5, 5.0}) {
+        for (auto& [name, plant, stepped, cost, budget] : stepsOfCost()) {
+            plant.run(8);
+            for (const double now : {factor, 1.0}) {
+                plant.*stepped = now;
+                plant.run(6);
+                double least = std::log(plant.tauPx), most = least;
+                for (int i = 0; i < 300; ++i) {
+                    plant.frame();
+                    least = std::min(least, std::log(plant.tauPx));
+                    most = std::max(most, std::log(plant.tauPx));
+                }
+                EXPECT_LE(most - least, plant.settings.hysteresis) << name << now;
+            }
+        }
     }
 }
 
@@ -262,6 +343,54 @@ TEST(Governor, keepsTauWithinItsLimitsAndTellsSo) {
     Plant between{.settings = {.budget = {.triangles = 4e5}}};
     between.run(3);
     EXPECT_EQ(between.last.limit, GovernorLimit::None);
+}
+
+// No τ reaches these budgets: the largest one does what it can, and the costs that remain say what binds.
+TEST(Governor, restsAtTheUpperLimitBelowWhatTheCoarsestTauCosts) {
+    struct Small {
+        GovernorCosts budget;
+        GovernorBudget binds;
+    };
+    for (const Small& small :
+         {Small{{.triangles = 100}, GovernorBudget::Triangles},
+          Small{{.triangles = 1}, GovernorBudget::Triangles}, Small{{.gpuMs = 0.01}, GovernorBudget::GpuTime},
+          Small{{.cpuMs = 1e-6, .triangles = 1e5}, GovernorBudget::CpuTime}}) {
+        Plant plant{.settings = {.budget = small.budget}, .fixedMs = 0.5, .noise = 0.05};
+        plant.run(2);
+        for (int i = 0; i < 600; ++i) {
+            plant.frame();
+            ASSERT_EQ(plant.tauPx, 16) << i;
+            ASSERT_EQ(plant.last.limit, GovernorLimit::MostTau) << i;
+            ASSERT_EQ(plant.last.binds, small.binds) << i;
+            ASSERT_GT(plant.last.use, 1) << i;
+        }
+        // A budget that can be kept is kept again.
+        plant.settings.budget = {.triangles = 4e5};
+        plant.run(12);
+        EXPECT_EQ(plant.last.limit, GovernorLimit::None);
+        EXPECT_LT(plant.triangles, 4e5);
+        EXPECT_GT(plant.triangles, 0.8 * 4e5);
+    }
+}
+
+TEST(Governor, restsAtTheUpperLimitWhileMemoryOrReadingIsOverABudgetThatNoTauReaches) {
+    for (const GovernorBudget budget : {GovernorBudget::Memory, GovernorBudget::Reading}) {
+        GovernorSettings settings;
+        (budget == GovernorBudget::Memory ? settings.budget.memoryBytes : settings.budget.readBytesPerS) =
+            1e3;
+        GovernorSample sample{
+            .cost = {.memoryBytes = 1e6, .readBytesPerS = 1e6}, .tauPx = 2, .elapsedS = frameS};
+        GovernorState state;
+        for (int i = 0; i < 600; ++i) {
+            const Governed governed = govern(state, sample, settings);
+            state = governed.state;
+            sample.tauPx = governed.tauPx;
+            if (i < 120) continue;
+            ASSERT_EQ(governed.tauPx, 16) << i;
+            ASSERT_EQ(governed.limit, GovernorLimit::MostTau) << i;
+            ASSERT_EQ(governed.binds, budget) << i;
+        }
+    }
 }
 
 TEST(Governor, theBudgetThatNeedsTheLargestTauBinds) {
