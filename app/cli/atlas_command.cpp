@@ -99,6 +99,12 @@ void printSpreads(const planet::Atlas& atlas) {
                    figureText(one.measure, one.p99), figureText(one.measure, one.most),
                    viewpointText(atlas.survey, atlas.viewpoints[worst]));
     }
+    for (const AtlasSpread& one : spreadsOf(atlas.viewpoints)) {
+        if (one.unbounded == 0) continue;
+        fmt::print(
+            "{} has no bound at {} of {} viewpoints, where \u03b4c is at least the distance to a chunk\n",
+            planet::textOf(one.measure).key, one.unbounded, one.count);
+    }
 }
 
 void printWorst(const planet::Atlas& atlas, std::size_t worst) {

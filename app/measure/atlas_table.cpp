@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/trigonometric.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -38,8 +39,9 @@ using planet::Result;
 
 constexpr int areaLevel = 5;  // areas of changed chunks are at least this small, 310 km on Earth
 
+// JSON has no infinity.
 AtlasJson numberOrNull(double value) {
-    return std::isnan(value) ? AtlasJson(nullptr) : AtlasJson(value);
+    return std::isfinite(value) ? AtlasJson(value) : AtlasJson(nullptr);
 }
 
 AtlasJson jsonOf(const planet::AtlasSurvey& survey, const AtlasViewpoint& viewpoint) {
@@ -56,16 +58,18 @@ AtlasJson jsonOf(const planet::AtlasSurvey& survey, const AtlasViewpoint& viewpo
 AtlasJson jsonOf(const AtlasSpread& spread) {
     return {{"measure", planet::textOf(spread.measure).key},
             {"viewpoints", spread.count},
-            {"median", spread.median},
-            {"p90", spread.p90},
-            {"p99", spread.p99},
-            {"maximum", spread.most}};
+            {"unbounded", spread.unbounded},
+            {"median", numberOrNull(spread.median)},
+            {"p90", numberOrNull(spread.p90)},
+            {"p99", numberOrNull(spread.p99)},
+            {"maximum", numberOrNull(spread.most)}};
 }
 
 AtlasJson jsonOf(const planet::AtlasMove& move, const planet::Atlas& atlas) {
     AtlasJson json = jsonOf(atlas.survey, atlas.viewpoints[move.viewpoint]);
-    json["before"] = move.before;
-    json["now"] = move.now;
+    // A move has both figures, so null is no bound.
+    json["before"] = numberOrNull(move.before);
+    json["now"] = numberOrNull(move.now);
     return json;
 }
 
@@ -133,9 +137,11 @@ std::vector<AtlasSpread> spreadsOf(std::span<const AtlasViewpoint> viewpoints) {
             if (!std::isnan(viewpoint.figures[i])) values.push_back(viewpoint.figures[i]);
         }
         if (values.empty()) continue;
-        spreads.push_back({static_cast<AtlasMeasure>(i), values.size(), planet::percentileOf(values, 0.5),
-                           planet::percentileOf(values, 0.9), planet::percentileOf(values, 0.99),
-                           planet::percentileOf(values, 1)});
+        const auto unbounded =
+            static_cast<std::size_t>(std::ranges::count(values, std::numeric_limits<double>::infinity()));
+        spreads.push_back({static_cast<AtlasMeasure>(i), values.size(), unbounded,
+                           planet::percentileOf(values, 0.5), planet::percentileOf(values, 0.9),
+                           planet::percentileOf(values, 0.99), planet::percentileOf(values, 1)});
     }
     return spreads;
 }
@@ -162,6 +168,7 @@ std::vector<std::size_t> worstViewpoints(std::span<const AtlasViewpoint> viewpoi
 
 std::string figureText(AtlasMeasure measure, double value) {
     if (std::isnan(value)) return "-";
+    if (std::isinf(value)) return "no bound";
     switch (measure) {
         case AtlasMeasure::BytesRead:
             return bytesText(value);
@@ -174,6 +181,13 @@ std::string figureText(AtlasMeasure measure, double value) {
         default:
             return fmt::format("{:.3g} px", value);
     }
+}
+
+std::string changeText(AtlasMeasure measure, double by) {
+    if (std::isnan(by)) return "-";
+    if (std::isinf(by)) return by > 0 ? "bound lost" : "bound gained";
+    if (by == 0) return "0";
+    return (by > 0 ? "+" : "-") + figureText(measure, std::abs(by));
 }
 
 std::string viewpointText(const planet::AtlasSurvey& survey, const AtlasViewpoint& viewpoint) {
@@ -232,6 +246,10 @@ AtlasJson atlasJson(const planet::Atlas& atlas, const planet::AtlasRun& run, dou
         AtlasJson json = jsonOf(survey, viewpoint);
         for (std::size_t i = 0; i < planet::atlasMeasureCount; ++i)
             json[std::string(planet::atlasMeasureTexts[i].key)] = numberOrNull(viewpoint.figures[i]);
+        for (std::size_t i = 0; i < planet::atlasMeasureCount; ++i) {
+            if (std::isinf(viewpoint.figures[i]))
+                json["unbounded"].push_back(planet::atlasMeasureTexts[i].key);
+        }
         report["viewpoints"].push_back(std::move(json));
     }
     return report;

@@ -15,10 +15,11 @@
 
 namespace worldy {
 
-// The distribution of one measure over the viewpoints that have it, by nearest rank.
+// The distribution of one measure over the viewpoints that have it, by nearest rank. No bound is larger than any number.
 struct AtlasSpread {
     planet::AtlasMeasure measure = planet::AtlasMeasure::MeasuredPx;
     std::size_t count = 0;
+    std::size_t unbounded = 0;  // viewpoints without a bound, of those counted
     double median = 0;
     double p90 = 0;
     double p99 = 0;
@@ -32,8 +33,10 @@ std::vector<AtlasSpread> spreadsOf(std::span<const planet::AtlasViewpoint> viewp
 std::vector<std::size_t> worstViewpoints(std::span<const planet::AtlasViewpoint> viewpoints,
                                          planet::AtlasMeasure measure, std::size_t count);
 
-// Returns a value with its unit: "1.24 px", "0.35 s", "1.2 MiB", "184 k".
+// Returns a value with its unit: "1.24 px", "0.35 s", "1.2 MiB", "184 k"; "no bound" for infinity.
 std::string figureText(planet::AtlasMeasure measure, double value);
+// Returns a change with its unit: "+1.24 px", "-0.35 s", "0"; "bound lost" and "bound gained" for infinity.
+std::string changeText(planet::AtlasMeasure measure, double by);
 // Returns "46.5 N 7.9 E, 200 m, 90°": the place, the altitude above the ground and the heading.
 std::string viewpointText(const planet::AtlasSurvey& survey, const planet::AtlasViewpoint& viewpoint);
 

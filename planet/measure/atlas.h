@@ -35,7 +35,10 @@ struct AtlasMeasureText {
 inline constexpr std::array<AtlasMeasureText, atlasMeasureCount> atlasMeasureTexts = {{
     {"measured_px", "Measured error", "px",
      "Largest distance of the drawn surface from the finest data, as if the view faced it."},
-    {"eps_px", "Screen-space error \u03b5", "px", "Largest predicted error of a drawn chunk's own surface."},
+    {"eps_px", "Screen-space error \u03b5", "px",
+     "Largest predicted error of a drawn chunk's own surface. There is no bound where \u03b4c is at least "
+     "the "
+     "distance to the chunk's bounds, as where the eye is inside them."},
     {"drawn_bound_px", "Drawn bound", "px", "Largest bound of the error of what is drawn, with its morph."},
     {"triangles", "Triangles", "", "Drawn triangles, skirts included."},
     {"bytes_read", "Bytes read", "B", "Bytes read until the view is sharp, from the roots alone."},
@@ -49,10 +52,19 @@ constexpr const AtlasMeasureText& textOf(AtlasMeasure measure) {
     return atlasMeasureTexts[static_cast<std::size_t>(measure)];
 }
 
-// One value of each measure, >= 0; NaN for what was not measured.
+// One value of each measure, >= 0; NaN for what was not measured. EpsPx and DrawnBoundPx are infinite where there is no
+// bound (atlasBoundPx).
 using AtlasFigures = std::array<double, atlasMeasureCount>;
 inline double figureOf(const AtlasFigures& figures, AtlasMeasure measure) {
     return figures[static_cast<std::size_t>(measure)];
+}
+
+// Returns a predicted error or a drawn bound, pixels; infinity from K' = W / (2 tan(Hfov / 2)) on. There δ is at least the
+// distance from the eye to the bounds of the chunk, which is 0 within them. So the true surface may be at the eye, and no
+// number of pixels bounds its error.
+double atlasBoundPx(double px, double screenScalePx);
+constexpr bool mayLackBound(AtlasMeasure measure) {
+    return measure == AtlasMeasure::EpsPx || measure == AtlasMeasure::DrawnBoundPx;
 }
 
 inline constexpr std::size_t mostAtlasAltitudes = 16;
@@ -127,6 +139,8 @@ struct Atlas {
     bool isFinished = false;
 };
 
+// Returns K' of the views, pixels.
+double screenScalePx(const AtlasSurvey& survey);
 // Returns the pose of a viewpoint: longitude in [-180, 180].
 CameraPose poseOf(const AtlasSurvey& survey, const AtlasViewpoint& viewpoint);
 // Returns the direction of the middle of a cell, of length 1.

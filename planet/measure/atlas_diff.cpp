@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +18,7 @@
 
 #include "planet/base/result.h"
 #include "planet/measure/atlas.h"
+#include "planet/measure/atlas_sampling.h"
 
 namespace planet {
 
@@ -69,7 +72,8 @@ std::string textOf(const AtlasLimit& limit) {
 }
 
 bool isExceeded(const AtlasLimit& limit, double before, double now) {
-    const double by = limit.isDown ? before - now : now - before;
+    const double by = (limit.isDown ? -1 : 1) * AtlasMove{0, before, now}.by();
+    if (std::isinf(by)) return by > 0;
     return by > 0 && by > (limit.isShare ? limit.by * before : limit.by);
 }
 
@@ -97,6 +101,36 @@ Result<std::vector<AtlasMeasureDiff>> compareViewpoints(std::span<const AtlasVie
         if (diff.compared > 0) diffs.push_back(std::move(diff));
     }
     return diffs;
+}
+
+std::vector<AtlasViewpoint> changesOf(std::span<const AtlasViewpoint> before,
+                                      std::span<const AtlasViewpoint> now) {
+    std::vector<AtlasViewpoint> changes(now.begin(), now.end());
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        for (std::size_t measure = 0; measure < atlasMeasureCount; ++measure)
+            changes[i].figures[measure] =
+                AtlasMove{i, before[i].figures[measure], now[i].figures[measure]}.by();
+    }
+    return changes;
+}
+
+double worseChange(double a, double b) {
+    if (a > 0 || b > 0) return std::fmax(a, b);
+    return std::fmin(a, b);
+}
+
+std::vector<AtlasCell> changedCellsOf(const AtlasGrid& grid, std::span<const AtlasViewpoint> changes) {
+    std::map<std::pair<std::uint8_t, ChunkId>, AtlasFigures> worst;
+    for (const AtlasViewpoint& change : changes) {
+        const auto [found, isNew] =
+            worst.try_emplace({change.place.altitude, change.place.cell}, change.figures);
+        if (isNew) continue;
+        for (std::size_t i = 0; i < atlasMeasureCount; ++i)
+            found->second[i] = worseChange(found->second[i], change.figures[i]);
+    }
+    std::vector<AtlasCell> cells = cellsOf(grid, changes);
+    for (AtlasCell& cell : cells) cell.values = worst.at({cell.altitude, cell.cell});
+    return cells;
 }
 
 }  // namespace planet

@@ -9,6 +9,7 @@
 
 #include "planet/base/result.h"
 #include "planet/measure/atlas.h"
+#include "planet/measure/atlas_sampling.h"
 
 namespace planet {
 
@@ -24,7 +25,7 @@ struct AtlasLimit {
 // Reads a limit. "error_px" stands for "measured_px". The Error names the text and what is expected.
 Result<AtlasLimit> atlasLimitFromText(const std::string& text);
 std::string textOf(const AtlasLimit& limit);
-// Returns whether a value moved farther than the limit; false if either is NaN.
+// Returns whether a value moved farther than the limit; false if either is NaN. A bound that is lost exceeds any limit.
 bool isExceeded(const AtlasLimit& limit, double before, double now);
 
 // One viewpoint in which a measure moved.
@@ -33,7 +34,9 @@ struct AtlasMove {
     double before = 0;
     double now = 0;
 
-    double by() const { return now - before; }
+    double by() const {
+        return now == before ? 0 : now - before;
+    }  // infinite where a bound was lost or gained
 };
 
 // The viewpoints in which one measure is another, sorted by the change: the largest increase first, the largest decrease
@@ -49,5 +52,14 @@ struct AtlasMeasureDiff {
 // Returns one entry for each measure that any viewpoint has in both. The Error says which viewpoint is not the same.
 Result<std::vector<AtlasMeasureDiff>> compareViewpoints(std::span<const AtlasViewpoint> before,
                                                         std::span<const AtlasViewpoint> now);
+
+// Returns the viewpoints of the later survey with AtlasMove::by() as their figures. Both must be the same viewpoints.
+std::vector<AtlasViewpoint> changesOf(std::span<const AtlasViewpoint> before,
+                                      std::span<const AtlasViewpoint> now);
+// Returns which of two changes to show for both, so that an improvement never hides a regression: the larger increase, or
+// the larger decrease if neither is an increase. A NaN counts for nothing.
+double worseChange(double a, double b);
+// Returns the cells that are not split, like cellsOf, with the worse changes over their headings.
+std::vector<AtlasCell> changedCellsOf(const AtlasGrid& grid, std::span<const AtlasViewpoint> changes);
 
 }  // namespace planet

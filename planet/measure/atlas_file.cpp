@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,6 +37,7 @@ namespace planet {
 namespace {
 
 constexpr std::string_view atlasMagic = "WORLDYAT";
+constexpr std::string_view unfinishedEnding = ".part";
 constexpr std::uint32_t atlasVersion = 1;
 constexpr std::size_t atlasHeaderBytes = 16;
 constexpr std::size_t recordHeadBytes = 16;
@@ -251,8 +253,20 @@ bool isGood(const AtlasViewpoint& viewpoint, const AtlasSurvey& survey) {
     if (place.altitude >= grid.altitudesM.size() || place.heading >= grid.headings) return false;
     // A camera needs an eye above the planet's centre.
     if (!isBetween(viewpoint.eyeM, -survey.radiusM, 1e13) || viewpoint.eyeM == -survey.radiusM) return false;
-    return std::all_of(viewpoint.figures.begin(), viewpoint.figures.end(),
-                       [](double figure) { return std::isnan(figure) || isBetween(figure, 0, 1e300); });
+    for (std::size_t i = 0; i < atlasMeasureCount; ++i) {
+        const double figure = viewpoint.figures[i];
+        const bool isUnbounded =
+            mayLackBound(static_cast<AtlasMeasure>(i)) && figure == std::numeric_limits<double>::infinity();
+        if (!std::isnan(figure) && !isUnbounded && !isBetween(figure, 0, 1e300)) return false;
+    }
+    return true;
+}
+
+// Earlier surveys recorded huge numbers where there is no bound.
+void dropUselessBounds(AtlasFigures& figures, double scalePx) {
+    for (std::size_t i = 0; i < atlasMeasureCount; ++i) {
+        if (mayLackBound(static_cast<AtlasMeasure>(i))) figures[i] = atlasBoundPx(figures[i], scalePx);
+    }
 }
 
 Result<void> addViewpoints(std::span<const std::byte> content, const std::string& name, Atlas& atlas) {
@@ -262,6 +276,7 @@ Result<void> addViewpoints(std::span<const std::byte> content, const std::string
     if (atlas.viewpoints.size() + count > mostAtlasViewpoints)
         return badInput(
             fmt::format("{}: has too many viewpoints; expected at most {}", name, mostAtlasViewpoints));
+    const double scalePx = screenScalePx(atlas.survey);
     ContentReader in(content);
     for (std::size_t i = 0; i < count; ++i) {
         AtlasViewpoint viewpoint;
@@ -276,6 +291,7 @@ Result<void> addViewpoints(std::span<const std::byte> content, const std::string
         for (double& figure : viewpoint.figures) figure = in.get<double>();
         if (!isGood(viewpoint, atlas.survey))
             return badInput(fmt::format("{}: viewpoint {} is damaged", name, atlas.viewpoints.size()));
+        dropUselessBounds(viewpoint.figures, scalePx);
         atlas.viewpoints.push_back(viewpoint);
     }
     return {};
@@ -385,7 +401,16 @@ Result<Atlas> loadAtlas(const std::filesystem::path& file) {
 
 std::filesystem::path unfinishedAtlas(const std::filesystem::path& file) {
     std::filesystem::path part = file;
-    return part += ".part";
+    return part += unfinishedEnding;
+}
+
+std::filesystem::path finishedAtlas(const std::filesystem::path& file) {
+    std::filesystem::path finished = file;
+    return file.extension() == unfinishedEnding ? finished.replace_extension() : finished;
+}
+
+bool isNamedAtlas(const std::filesystem::path& file) {
+    return finishedAtlas(file).extension() == ".atlas";
 }
 
 Result<AtlasWriter> AtlasWriter::create(const std::filesystem::path& file, const AtlasSurvey& survey,

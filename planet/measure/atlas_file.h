@@ -12,7 +12,8 @@
 //             u32 count and f64 altitudes; i32 headings; f64 pitch; i32 coarsest and finest level; u64 most viewpoints
 //     kind 2  the tree, at most once: u32 count, then for each chunk a u8, bit 0 it has children, bit 1 it is a
 //             summary; f32 δc; u32 digest
-//     kind 3  viewpoints, [1, 32]: for each u8 face, level, altitude, heading; u32 x, y; f64 eye; f64 for each measure
+//     kind 3  viewpoints, [1, 32]: for each u8 face, level, altitude, heading; u32 x, y; f64 eye; f64 for each measure,
+//             NaN for what was not measured, infinity for a predicted error without a bound
 //     kind 4  the end, empty: the survey is finished
 //
 // While a survey runs, its file has the extension ".part" after its own, and records are appended to it. Wherever the
@@ -41,6 +42,10 @@ Result<Atlas> loadAtlas(const std::filesystem::path& file);
 
 // The name under which an unfinished survey is kept.
 std::filesystem::path unfinishedAtlas(const std::filesystem::path& file);
+// Returns the name that an unfinished survey has when it is finished; other names stay as they are.
+std::filesystem::path finishedAtlas(const std::filesystem::path& file);
+// Returns whether a file has the name of an atlas, NAME.atlas, or of an unfinished one, NAME.atlas.part.
+bool isNamedAtlas(const std::filesystem::path& file);
 
 // Writes the file of a survey while it runs. A file has one writer at a time. One thread.
 class AtlasWriter {

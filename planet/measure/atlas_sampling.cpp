@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -79,13 +80,27 @@ private:
     std::unordered_map<ChunkId, std::size_t> byCell_;
 };
 
+// Returns the values of a measure, NaN where there is none. No bound counts as twice the largest one, so that the edge of
+// where there is none is surveyed finely without hiding the other differences.
+std::vector<double> valuesToScore(std::size_t measure, std::span<const AtlasCell> cells) {
+    std::vector<double> values;
+    double largest = 0;
+    for (const AtlasCell& cell : cells) {
+        values.push_back(cell.values[measure]);
+        if (std::isfinite(values.back())) largest = std::max(largest, values.back());
+    }
+    for (double& value : values) {
+        if (std::isinf(value)) value = largest > 0 ? 2 * largest : 1;
+    }
+    return values;
+}
+
 // Raises the scores of all cells by one measure.
 void scoreBy(std::size_t measure, std::span<const AtlasCell> cells, const CellMap& map,
              std::vector<double>& scores) {
+    const std::vector<double> all = valuesToScore(measure, cells);
     std::vector<double> values;
-    for (const AtlasCell& cell : cells) {
-        if (!std::isnan(cell.values[measure])) values.push_back(cell.values[measure]);
-    }
+    std::ranges::copy_if(all, std::back_inserter(values), [](double value) { return !std::isnan(value); });
     if (values.empty()) return;
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     const double range = *most - *least;
@@ -94,14 +109,14 @@ void scoreBy(std::size_t measure, std::span<const AtlasCell> cells, const CellMa
         scores[cell] = std::max(scores[cell], by / range);
     };
     map.forEachPair([&](std::size_t i, std::size_t j) {
-        const double difference = std::abs(cells[i].values[measure] - cells[j].values[measure]);
+        const double difference = std::abs(all[i] - all[j]);
         if (std::isnan(difference)) return;
         raise(i, difference);
         raise(j, difference);
     });
     const double high = percentileOf(std::move(values), 0.99);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (cells[i].values[measure] > high) raise(i, cells[i].values[measure] - high);
+        if (all[i] > high) raise(i, all[i] - high);
     }
 }
 
@@ -142,6 +157,14 @@ std::vector<ScoredCell> scoredCells(const AtlasGrid& grid, double radiusM, std::
 glm::dvec3 middleOf(const ChunkId& cell) {
     const FaceSquare square = faceSquareOf(cell);
     return sphereFromCube(cubePoint(cell.face, square.u + square.side / 2, square.v + square.side / 2));
+}
+
+double atlasBoundPx(double px, double screenScalePx) {
+    return px >= screenScalePx ? std::numeric_limits<double>::infinity() : px;
+}
+
+double screenScalePx(const AtlasSurvey& survey) {
+    return survey.widthPx / (2 * std::tan(0.5 * glm::radians(survey.fovDeg)));
 }
 
 CameraPose poseOf(const AtlasSurvey& survey, const AtlasViewpoint& viewpoint) {

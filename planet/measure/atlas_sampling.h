@@ -8,7 +8,7 @@
 //
 //     max(largest |value - value of a neighbour|, value - 99th percentile) / (largest value - smallest value)
 //
-// over the cells of its altitude that are not split, times 2^-(l / 2) for a cell l levels below the coarsest one. So
+// over the cells of its altitude that are not split, where no bound counts as twice the largest one, times 2^-(l / 2) for a cell l levels below the coarsest one. So
 // cells are split where neighbours differ, and where the worst is. A cell narrower than the altitude is not split,
 // because the views from its quarters would show the same.
 #pragma once

@@ -124,8 +124,10 @@ Result<void> AtlasMeter::measureStill(const View& view, AtlasFigures& figures,
     }
     for (const BlockKind kind : {BlockKind::Colours, BlockKind::Normals}) planet_.takeTileChanges(kind);
     const SelectionCounters& drawn = planet_.selection().counters;
-    setFigure(figures, AtlasMeasure::EpsPx, static_cast<double>(drawn.worstEpsPx));
-    setFigure(figures, AtlasMeasure::DrawnBoundPx, static_cast<double>(drawn.worstDrawnBoundPx));
+    const double scalePx = screenScalePx(view);
+    setFigure(figures, AtlasMeasure::EpsPx, atlasBoundPx(static_cast<double>(drawn.worstEpsPx), scalePx));
+    setFigure(figures, AtlasMeasure::DrawnBoundPx,
+              atlasBoundPx(static_cast<double>(drawn.worstDrawnBoundPx), scalePx));
     setFigure(figures, AtlasMeasure::Triangles, static_cast<double>(drawn.triangles()));
     setFigure(figures, AtlasMeasure::BytesRead,
               static_cast<double>(planet_.paging().bytesRead() - bytesBefore));

@@ -53,6 +53,15 @@ TEST_F(AtlasCommand, PrintsTheWorstPlacesAndTheCosts) {
     EXPECT_THAT(ran.output, Not(HasSubstr("measured_px")));
 }
 
+TEST_F(AtlasCommand, PrintsHowManyViewpointsHaveNoBoundOfTheError) {
+    const Ran coarse = atlas(small + "-o a.atlas --set lod.max_level=0 --csv a.csv");
+    ASSERT_EQ(coarse.exitCode, 0) << coarse.errors;
+    EXPECT_THAT(coarse.output, HasSubstr("eps_px has no bound at "));
+    EXPECT_THAT(file("a.csv"), HasSubstr(",inf,"));
+    const Ran fine = atlas(small + "-o b.atlas");
+    EXPECT_THAT(fine.output, Not(HasSubstr("no bound")));
+}
+
 TEST_F(AtlasCommand, AnUnchangedPlanetPassesItsNightlyCheck) {
     ASSERT_EQ(atlas(small + "-o a.atlas").exitCode, 0);
     // The settings are those of the atlas.
@@ -72,10 +81,12 @@ TEST_F(AtlasCommand, WhatGotWorseIsPlacedAndExitsWithOne) {
     EXPECT_FALSE(diff["within_limits"]);
     EXPECT_EQ(diff["changed_chunks"], 0);
     const nlohmann::json& worst = diff["limits"][0]["worst"][0];
-    EXPECT_GT(worst["now"], worst["before"]);
+    // The eye is inside the bounds of chunks that the region keeps coarse.
+    EXPECT_TRUE(worst["now"].is_null());
+    EXPECT_LE(worst["before"], 0.5);
     EXPECT_LT(std::abs(worst["latitude_deg"].get<double>()), 60);
     EXPECT_LT(std::abs(worst["longitude_deg"].get<double>()), 60);
-    EXPECT_EQ(atlas("--diff a.atlas --limit eps_px=+1e15").exitCode, 0);
+    EXPECT_EQ(atlas("--diff a.atlas --limit triangles=+1e15").exitCode, 0);
 }
 
 TEST_F(AtlasCommand, AnotherBakeIsFoundByItsChunks) {

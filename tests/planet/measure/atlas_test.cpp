@@ -14,6 +14,8 @@
 #include "planet/measure/atlas_file.h"
 #include "planet/measure/atlas_run.h"
 #include "planet/measure/atlas_tree.h"
+#include "planet/planet.h"
+#include "planet/sphere/bounds.h"
 #include "tests/support/fake_pyramid.h"
 #include "tests/support/temporary_folder.h"
 
@@ -145,6 +147,101 @@ TEST(Atlas, MeasuresTheTrueErrorWithinItsBound) {
         most = std::max(most, figureOf(viewpoint.figures, AtlasMeasure::MeasuredPx));
     }
     EXPECT_GT(most, 0.1);
+}
+
+// The whole planet is drawn as its six roots, in whose bounds some of the eyes are.
+TEST(Atlas, AnEyeInTheBoundsOfACoarseChunkHasNoBoundOfTheError) {
+    AtlasSettings coarse = smallSettings();
+    coarse.input.lod.maxLevel = 0;
+    const AtlasSurvey with = smallSurvey();
+    const auto planet = Planet::open(fakePyramid().source(), coarse.paging).value();
+    std::size_t inside = 0, outside = 0;
+    for (const AtlasViewpoint& viewpoint : survey(fakePyramid(), with, coarse)) {
+        const View view = viewFromPose(poseOf(with, viewpoint), with.radiusM, glm::radians(with.fovDeg),
+                                       with.widthPx, with.heightPx);
+        bool isAtSurface = false, isInside = false;
+        for (std::size_t face = 0; face < faceCount; ++face) {
+            const ChunkNode& root = planet->tree().nodes[face];
+            ASSERT_EQ(root.id.level, 0);
+            const double distance = distanceM(root.bounds.box, view.eyeM);
+            isInside = isInside || distance == 0;
+            isAtSurface = isAtSurface || distance <= static_cast<double>(root.deltaCM);
+        }
+        const double epsPx = figureOf(viewpoint.figures, AtlasMeasure::EpsPx);
+        if (isInside) {
+            EXPECT_TRUE(std::isinf(epsPx)) << toString(viewpoint.place.cell);
+            EXPECT_TRUE(std::isinf(figureOf(viewpoint.figures, AtlasMeasure::DrawnBoundPx)));
+        }
+        if (!isAtSurface) {
+            EXPECT_LT(epsPx, screenScalePx(with)) << toString(viewpoint.place.cell);
+        }
+        inside += isInside;
+        outside += !isAtSurface;
+    }
+    EXPECT_GT(inside, 0u);
+    EXPECT_GT(outside, 0u);
+}
+
+TEST(Atlas, APredictedErrorHasNoBoundFromTheWidthOfTheViewOn) {
+    AtlasSurvey quarter;
+    quarter.widthPx = 1000;
+    quarter.fovDeg = 90;
+    EXPECT_NEAR(screenScalePx(quarter), 500, 1e-9);
+    EXPECT_EQ(atlasBoundPx(499, 500), 499);
+    EXPECT_EQ(atlasBoundPx(500, 500), INFINITY);
+    EXPECT_TRUE(std::isnan(atlasBoundPx(NAN, 500)));
+}
+
+TEST(Atlas, ABoundThatIsLostIsTheLargestIncreaseAndOneThatStaysLostIsNone) {
+    std::vector<AtlasViewpoint> old(before().begin(), before().begin() + 4), now = old;
+    const auto eps = [](AtlasViewpoint& viewpoint) -> double& {
+        return viewpoint.figures[static_cast<std::size_t>(AtlasMeasure::EpsPx)];
+    };
+    eps(old[0]) = eps(now[0]) = eps(now[1]) = eps(old[2]) = INFINITY;
+    eps(now[3]) = eps(old[3]) + 7;
+    const auto diffs = compareViewpoints(old, now).value();
+    const AtlasMeasureDiff& diff = of(diffs, AtlasMeasure::EpsPx);
+    EXPECT_EQ(diff.compared, 4u);
+    EXPECT_EQ(diff.grew, 2u);
+    EXPECT_EQ(diff.shrank, 1u);
+    EXPECT_EQ(diff.moves[0].viewpoint, 1u);
+    EXPECT_EQ(diff.moves[1].viewpoint, 3u);
+    EXPECT_EQ(diff.moves[2].viewpoint, 2u);
+    const AtlasLimit limit = *atlasLimitFromText("eps_px=+1000000%");
+    EXPECT_TRUE(isExceeded(limit, 0.5, INFINITY));
+    EXPECT_FALSE(isExceeded(limit, INFINITY, INFINITY));
+    EXPECT_FALSE(isExceeded(limit, INFINITY, 0.5));
+    EXPECT_TRUE(isExceeded(*atlasLimitFromText("eps_px=-10%"), INFINITY, 0.5));
+}
+
+TEST(Atlas, ACellShowsTheLargestIncreaseOfItsHeadingsOrElseTheLargestDecrease) {
+    EXPECT_EQ(worseChange(-3, 0.5), 0.5);
+    EXPECT_EQ(worseChange(1, 0.5), 1);
+    EXPECT_EQ(worseChange(-3, 0), -3);
+    EXPECT_EQ(worseChange(NAN, -2), -2);
+    EXPECT_EQ(worseChange(INFINITY, -2), INFINITY);
+
+    const AtlasGrid grid = smallSurvey().grid;
+    std::vector<AtlasViewpoint> now = before();
+    const auto triangles = [](AtlasViewpoint& viewpoint) -> double& {
+        return viewpoint.figures[static_cast<std::size_t>(AtlasMeasure::Triangles)];
+    };
+    for (const AtlasCell& cell : changedCellsOf(grid, changesOf(before(), now)))
+        EXPECT_EQ(figureOf(cell.values, AtlasMeasure::Triangles), 0);
+    // The last viewpoints are both headings of the last two cells, which are not split.
+    const std::size_t count = now.size();
+    triangles(now[count - 1]) -= 9;
+    triangles(now[count - 2]) += 4;
+    triangles(now[count - 3]) -= 5;
+    const auto cells = changedCellsOf(grid, changesOf(before(), now));
+    const auto valueOf = [&](const AtlasPlace& place) {
+        const auto found = std::ranges::find_if(cells, [&](const AtlasCell& cell) {
+            return cell.cell == place.cell && cell.altitude == place.altitude;
+        });
+        return figureOf(found->values, AtlasMeasure::Triangles);
+    };
+    EXPECT_EQ(valueOf(now[count - 1].place), 4);
+    EXPECT_EQ(valueOf(now[count - 3].place), -5);
 }
 
 TEST(Atlas, AnyNumberOfThreadsGivesTheSameViewpoints) {
@@ -394,8 +491,33 @@ TEST_F(AtlasFile, BadValuesAreRefused) {
     EXPECT_THAT(problemWith([](AtlasSurvey&, AtlasViewpoint& v) { v.figures[1] = -1; }), HasSubstr(damaged));
     EXPECT_THAT(problemWith([](AtlasSurvey&, AtlasViewpoint& v) { v.figures[3] = INFINITY; }),
                 HasSubstr(damaged));
+    EXPECT_THAT(problemWith([](AtlasSurvey&, AtlasViewpoint& v) { v.figures[1] = -INFINITY; }),
+                HasSubstr(damaged));
     EXPECT_THAT(problemWith([](AtlasSurvey& s, AtlasViewpoint& v) { v.eyeM = -s.radiusM; }),
                 HasSubstr(damaged));
+}
+
+TEST_F(AtlasFile, TheHugeErrorsOfEarlierSurveysAreReadAsNoBound) {
+    std::vector<AtlasViewpoint> old(before().begin(), before().begin() + 3);
+    const auto eps = static_cast<std::size_t>(AtlasMeasure::EpsPx);
+    old[0].figures[eps] = 1.9e9;
+    old[1].figures[eps] = INFINITY;
+    AtlasWriter writer = AtlasWriter::create(folder_ / "old.atlas", smallSurvey(), {}).value();
+    ASSERT_TRUE(writer.append(old));
+    ASSERT_TRUE(writer.finish());
+    const Atlas atlas = loadAtlas(folder_ / "old.atlas").value();
+    EXPECT_EQ(atlas.viewpoints[0].figures[eps], INFINITY);
+    EXPECT_EQ(atlas.viewpoints[1].figures[eps], INFINITY);
+    EXPECT_EQ(atlas.viewpoints[2].figures[eps], old[2].figures[eps]);
+}
+
+TEST_F(AtlasFile, NamesTellAtlasesAndUnfinishedOnes) {
+    EXPECT_TRUE(isNamedAtlas("a.atlas"));
+    EXPECT_TRUE(isNamedAtlas("x/a.atlas.part"));
+    EXPECT_FALSE(isNamedAtlas("a.part"));
+    EXPECT_FALSE(isNamedAtlas("a.chk"));
+    EXPECT_EQ(finishedAtlas(unfinishedAtlas("x/a.atlas")), "x/a.atlas");
+    EXPECT_EQ(finishedAtlas("a.atlas"), "a.atlas");
 }
 
 TEST_F(AtlasFile, HasOneWriterAtATime) {
