@@ -207,4 +207,37 @@ Result<ViewSettings> settingsOf(const AtlasSurvey& survey, const std::string& na
     return view;
 }
 
+Result<ViewSettings> settingsOf(const AtlasSurvey& survey, const std::string& name,
+                                const RegionSettings& regions) {
+    TRY_ASSIGN(const ViewPart part, viewPartFromText(survey.settings, name + ": settings"));
+    ViewSettings view = applied(part, {});
+    view.regions = regions;
+    return view;
+}
+
+Result<AtlasRequest> requestToResume(const planet::Atlas& unfinished, const std::filesystem::path& output,
+                                     const std::filesystem::path& chunkFile, const RegionSettings& regions,
+                                     std::shared_ptr<const planet::Atlas> revisited) {
+    const AtlasSurvey& survey = unfinished.survey;
+    const std::string name = planet::unfinishedAtlas(output).string();
+    if (survey.isRevisit && !revisited) {
+        return planet::badInput(
+            fmt::format("{}: surveys the viewpoints of an earlier atlas again; expected worldy atlas --diff "
+                        "EARLIER.atlas "
+                        "-o {} --resume",
+                        name, output.string()));
+    }
+    AtlasRequest request;
+    request.file = chunkFile;
+    request.output = output;
+    TRY_ASSIGN(request.view, settingsOf(survey, name, regions));
+    request.size = {survey.widthPx, survey.heightPx};
+    request.grid = survey.grid;
+    request.measuresError = survey.measuresError;
+    request.recordsTree = !unfinished.tree.chunks.empty();
+    request.resumes = true;
+    if (survey.isRevisit) request.revisited = std::move(revisited);
+    return request;
+}
+
 }  // namespace worldy

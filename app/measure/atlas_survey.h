@@ -50,5 +50,17 @@ planet::Result<AtlasOutcome> surveyAtlas(const AtlasRequest& request, const Watc
 
 // Returns the view settings of an atlas with its regions. The Error names what its text has wrong.
 planet::Result<ViewSettings> settingsOf(const planet::AtlasSurvey& survey, const std::string& name);
+// Returns them with other regions: those of now, because they belong to the planet and not to the view.
+planet::Result<ViewSettings> settingsOf(const planet::AtlasSurvey& survey, const std::string& name,
+                                        const RegionSettings& regions);
+
+// Returns the request that continues an unfinished survey: with its settings, picture, viewpoints and measures. regions:
+// those of now; surveyAtlas refuses others than those of the survey. The Error names what the file's text has wrong, or
+// says that a revisit needs the atlas whose viewpoints it surveys.
+planet::Result<AtlasRequest> requestToResume(const planet::Atlas& unfinished,
+                                             const std::filesystem::path& output,
+                                             const std::filesystem::path& chunkFile,
+                                             const RegionSettings& regions,
+                                             std::shared_ptr<const planet::Atlas> revisited);
 
 }  // namespace worldy
