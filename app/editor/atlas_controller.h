@@ -12,9 +12,11 @@
 #include "app/editor/camera_controller.h"
 #include "app/editor/settings_controller.h"
 #include "app/measure/atlas_job.h"
+#include "app/measure/atlas_table.h"
 #include "app/scene/atlas_drape.h"
 #include "app/session/notices.h"
 #include "app/session/session.h"
+#include "planet/base/result.h"
 #include "planet/measure/atlas.h"
 #include "planet/measure/atlas_sampling.h"
 #include "ui/model/atlas_view.h"
@@ -22,18 +24,31 @@
 
 namespace worldy {
 
+// Names the files of the last survey.
+struct AtlasFiles {
+    std::filesystem::path output{};  // that it writes
+    // Keeps the name of the output, by an empty file that is removed with it.
+    std::shared_ptr<void> reservation{};
+    std::shared_ptr<const planet::Atlas> revisited{};  // whose viewpoints it surveys; null for others
+    std::filesystem::path revisitedFile{};
+};
+
 // A survey keeps using the chunk file that it started with: the planet may be closed or rebaked while it runs.
 struct AtlasController {
-    std::unique_ptr<AtlasJob> job{};     // at most one
-    std::filesystem::path surveyFile{};  // that the job writes
+    AtlasFiles files{};               // before the job, which writes them
+    std::unique_ptr<AtlasJob> job{};  // at most one
     std::optional<planet::Atlas> atlas{};
     std::filesystem::path file{};  // of the atlas
     std::vector<planet::AtlasCell> cells{};
+    std::vector<AtlasSpread> spreads{};
     planet::AtlasMeasure measure = planet::AtlasMeasure::EpsPx;
-    int altitude = 0;    // index
-    AtlasDrape drape{};  // of the measure at the altitude
+    int altitude = 0;       // index
+    bool isChange = false;  // shows the changes since the earlier survey
+    AtlasDrape drape{};     // of the measure at the altitude
     std::string problem{};
     bool cancelled = false;  // the problem is that the user cancelled
+    std::optional<ui::AtlasComparison> comparison{};
+    std::string comparisonProblem{};
 };
 
 // Parts of other features that the commands use and change.
@@ -49,6 +64,13 @@ void execute(AtlasController& controller, const ui::AtlasCommand& command, const
 
 // Call every frame; takes the result of a survey.
 void advanceAtlas(AtlasController& controller, const Log& log);
+
+// Compares an atlas with an earlier survey of the same viewpoints, by diffOf. The Error names the file and what does not
+// belong together.
+planet::Result<ui::AtlasComparison> comparisonOf(const planet::Atlas& earlier,
+                                                 const std::filesystem::path& earlierFile,
+                                                 const planet::Atlas& now,
+                                                 const std::filesystem::path& nowFile);
 
 // Returns the settings now with those of a survey that decide what is drawn: level of detail, budgets, field of view,
 // exaggeration and the sea. The way of looking at it stays: overlays, colours, light, and the disk.

@@ -11,6 +11,7 @@
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/trace/trace_document.h"
+#include "planet/measure/atlas_file.h"
 #include "planet/source/terrain.h"
 
 namespace worldy {
@@ -68,7 +69,7 @@ void open(FileController& files, const std::filesystem::path& file, const FileCo
             addRecentFile(files.recent, file);
             keepRecent(files, notices);
         }
-        if (file.extension() == ".atlas") return next.push_back(ui::OpenAtlas{file});
+        if (planet::isNamedAtlas(file)) return next.push_back(ui::OpenAtlas{file});
         // A file that is only named like a trace gets the error of one.
         if (isTrace || file.extension() == ".lodtrace") return next.push_back(ui::OpenTrace{file});
         if (file.extension() == ".png" && openScreenshot(file, context, notices)) return;

@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 #include <numbers>
 #include <optional>
+#include <span>
 
 namespace worldy {
 
@@ -23,6 +24,9 @@ constexpr std::array<std::uint32_t, 12> hues = {0x3D6BE0, 0xFF9A1F, 0x1FA34A, 0x
 constexpr std::array<std::uint32_t, 6> rampColours = {0x1B1F6B, 0x30508F, 0x21898C,
                                                       0x3DBB75, 0xA6DB3A, 0xFDF3A0};
 
+// From blue over a dark grey, which recedes where nothing has changed, to orange; also for red-green colour blindness.
+constexpr std::array<std::uint32_t, 5> changeColours = {0x8CCBFF, 0x2C78C4, 0x35383C, 0xC25A12, 0xFFB066};
+
 // In the order of planet::ChunkState.
 constexpr std::array<std::uint32_t, 10> stateColours = {0x3FB65F, 0x246B43, 0x5C6B80, 0x75609A, 0x3478BD,
                                                         0xEDC238, 0xFA8522, 0x80858C, 0xE03A32, 0x4A4D52};
@@ -30,6 +34,13 @@ constexpr std::array<std::uint32_t, 10> stateColours = {0x3FB65F, 0x246B43, 0x5C
 glm::vec3 fromHex(std::uint32_t hex) {
     const auto channel = [&](int shift) { return static_cast<float>((hex >> shift) & 0xFFu) / 255.0f; };
     return {channel(16), channel(8), channel(0)};
+}
+
+glm::vec3 colourAlong(std::span<const std::uint32_t> colours, double share) {
+    const double along = std::clamp(share, 0.0, 1.0) * static_cast<double>(colours.size() - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(along), colours.size() - 2);
+    return glm::mix(fromHex(colours[below]), fromHex(colours[below + 1]),
+                    static_cast<float>(along - static_cast<double>(below)));
 }
 
 // Returns the newest load order among the drawn chunks, at least 1.
@@ -135,10 +146,11 @@ glm::vec3 errorColour(double epsOverTau) {
 }
 
 glm::vec3 rampColour(double share) {
-    const double along = std::clamp(share, 0.0, 1.0) * (rampColours.size() - 1);
-    const std::size_t below = std::min(static_cast<std::size_t>(along), rampColours.size() - 2);
-    return glm::mix(fromHex(rampColours[below]), fromHex(rampColours[below + 1]),
-                    static_cast<float>(along - static_cast<double>(below)));
+    return colourAlong(rampColours, share);
+}
+
+glm::vec3 changeColour(double share) {
+    return colourAlong(changeColours, share);
 }
 
 glm::vec3 stateColour(planet::ChunkState state) {
@@ -180,9 +192,14 @@ glm::vec3 demandColour(const planet::ChunkTree& tree, const planet::ChunkDemand&
     return glm::mix(noRegionColour, regionColour(demand.region), static_cast<float>(share));
 }
 
+glm::vec3 drapeColour(const AtlasDrape& drape, double value) {
+    if (std::isinf(value)) return value > 0 ? unboundedColour : gainedColour;
+    return drape.isChange ? changeColour(shareOf(drape, value)) : rampColour(shareOf(drape, value));
+}
+
 glm::vec3 atlasColour(const AtlasDrape* atlas, const planet::ChunkId& chunk) {
     const std::optional<double> value = atlas ? valueAt(*atlas, chunk) : std::nullopt;
-    return value ? rampColour(shareOf(*atlas, *value)) : unmeasuredColour;
+    return value ? drapeColour(*atlas, *value) : unmeasuredColour;
 }
 
 std::vector<planet::gl::ChunkTint> chunkTints(const planet::Planet& planet,

@@ -23,9 +23,10 @@ namespace worldy {
 std::uint32_t packedColour(const glm::vec3& colour);  // opaque, as 0xAABBGGRR
 std::array<std::uint8_t, 4> colourBytes(const glm::vec3& colour, std::uint8_t opacity);
 
-glm::vec3 levelColour(int level);               // adjacent levels differ in hue
-glm::vec3 errorColour(double epsOverTau);       // green 0, yellow 1, red 2 and over
-glm::vec3 rampColour(double share);             // dark blue 0, light yellow 1: for neutral quantities
+glm::vec3 levelColour(int level);          // adjacent levels differ in hue
+glm::vec3 errorColour(double epsOverTau);  // green 0, yellow 1, red 2 and over
+glm::vec3 rampColour(double share);        // dark blue 0, light yellow 1: for neutral quantities
+glm::vec3 changeColour(double share);      // light blue 0, dark grey 0.5, light orange 1: better, same, worse
 inline const glm::vec3 unmeasuredColour(0.5f);  // for chunks without a measurement
 glm::vec3 stateColour(planet::ChunkState state);
 
@@ -46,6 +47,10 @@ inline const glm::vec3 noRegionColour(0.35f);  // for chunks about which no regi
 // Returns the colour of a chunk: that of the region that decides about it, mixed with noRegionColour in the soft border.
 glm::vec3 demandColour(const planet::ChunkTree& tree, const planet::ChunkDemand& demand);
 
+// Returns the colour of a value on the scale of an atlas.
+glm::vec3 drapeColour(const AtlasDrape& drape, double value);
+inline const glm::vec3 unboundedColour(0.86f, 0.14f, 0.12f);  // where there is no bound, or it was lost
+inline const glm::vec3 gainedColour(0.12f, 0.75f, 0.65f);     // where a bound was gained
 // Returns the colour of a chunk by an atlas; grey where the atlas is null or has no value.
 glm::vec3 atlasColour(const AtlasDrape* atlas, const planet::ChunkId& chunk);
 

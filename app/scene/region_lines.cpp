@@ -94,7 +94,7 @@ planet::Lines atlasLines(const AtlasDrape& atlas, const planet::ChunkTree& tree,
     for (const auto& [cell, value] : atlas.values) {
         if (isCoarserThanCells(atlas, cell)) continue;
         const planet::FaceSquare square = planet::faceSquareOf(cell);
-        const planet::LineColour colour = colourBytes(rampColour(shareOf(atlas, value)), 255);
+        const planet::LineColour colour = colourBytes(drapeColour(atlas, value), 255);
         // The gaps between cells are twice as wide as those between hatches.
         for (int i = 1; i < hatches; ++i) {
             const double along = square.side * i / hatches;

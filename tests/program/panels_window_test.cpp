@@ -361,6 +361,7 @@ coarse=$(counter triangles)
 click "atlas/Go 0"; settle
 expect counts triangles -gt $coarse
 key ctrl+z; click "atlas/Tint planet"; frames
+click "atlas/Survey again"; expect shown "atlas/Show"; choose "atlas/Show" survey; expect shown "atlas/Go 0"
 )sh",
                                 {"1400x900"});
     expectQuiet(ran);
@@ -370,6 +371,27 @@ key ctrl+z; click "atlas/Tint planet"; frames
     ASSERT_FALSE(atlas.empty());
     const Ran check = runWorldy(folder, "atlas planet.chk --diff '" + atlas.string() + "' --limit eps_px=+0");
     EXPECT_EQ(check.exitCode, 0) << check.output << check.errors;
+}
+
+// The first part may have any number of viewpoints; the command continues where the window was cancelled.
+TEST_F(PanelsWindowTest, ACancelledSurveyIsKeptAndContinued) {
+    const Ran ran = runInWindow(folder, "planet.chk", R"sh(
+key ctrl+shift+a; tab Atlas
+some_surveyed() { local part="$(ls *.atlas.part 2>/dev/null)"; [ -n "$part" ] && [ "$(stat -c %s "$part")" -gt 20000 ]; }
+slide atlas/Viewpoints 0.7; click atlas/Survey; expect some_surveyed; click atlas/Cancel
+expect says "Resume continues it"; expect shown atlas/Resume; expect shown "atlas/Go 0"
+slide "lod/Tolerance τ" 0.9; settle
+click atlas/Resume; expect says "Surveyed"
+expect shown "atlas/Compare with..."
+)sh",
+                                {"1400x900"});
+    expectQuiet(ran);
+    std::size_t atlases = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        EXPECT_NE(entry.path().extension(), ".part");
+        atlases += entry.path().extension() == ".atlas";
+    }
+    EXPECT_EQ(atlases, 1u);
 }
 
 TEST_F(PanelsWindowTest, SettingsForABudgetAreSearchedAppliedAndSaved) {

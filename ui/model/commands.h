@@ -125,7 +125,7 @@ using FrameCommand = std::variant<PauseFrames, StepFrame, DrawAtFullSpeed, Recor
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot
     std::filesystem::path file;
 };
-enum class FilePurpose : std::uint8_t { Open, BakedColours, SideB, TraceB };
+enum class FilePurpose : std::uint8_t { Open, BakedColours, SideB, TraceB, EarlierAtlas };
 struct AskForFile {  // shows the dialog that asks for a file
     FilePurpose purpose = FilePurpose::Open;
 };
@@ -386,15 +386,24 @@ struct StartAtlas {  // of the shown planet, in the background, with the current
     std::uint64_t viewpoints = 1000;
     bool measuresError = false;
 };
-struct CancelAtlas {};
+struct CancelAtlas {};  // keeps what was surveyed
+struct ResumeAtlas {};  // continues the shown atlas, which is not finished, with its own settings
+struct RevisitAtlas {   // surveys the viewpoints of the shown atlas on the shown planet, and compares both
+    bool withItsSettings = true;  // otherwise with the current settings
+};
+struct CompareAtlas {  // the shown atlas with an earlier survey of the same viewpoints
+    std::filesystem::path earlier;
+};
 struct ChooseAtlas {  // to show
     planet::AtlasMeasure measure = planet::AtlasMeasure::EpsPx;
-    int altitude = 0;  // index
+    int altitude = 0;       // index
+    bool isChange = false;  // since the earlier survey
 };
 struct LookFromAtlas {          // moves the camera to a viewpoint and takes over the settings of the survey
     std::size_t viewpoint = 0;  // index
 };
-using AtlasCommand = std::variant<OpenAtlas, StartAtlas, CancelAtlas, ChooseAtlas, LookFromAtlas>;
+using AtlasCommand = std::variant<OpenAtlas, StartAtlas, CancelAtlas, ResumeAtlas, RevisitAtlas, CompareAtlas,
+                                  ChooseAtlas, LookFromAtlas>;
 
 // Settings for a budget (app/suggest).
 struct StartSuggest {      // for the shown planet, in the background, from the current settings

@@ -70,11 +70,35 @@ std::vector<LegendRegion> legendRegions(const planet::Planet& planet) {
     return regions;
 }
 
+std::string drapeText(const AtlasDrape& drape, double value) {
+    return drape.isChange ? changeText(drape.measure, value) : figureText(drape.measure, value);
+}
+
+std::string scaleEndText(const AtlasDrape& drape, bool upper) {
+    const bool isClamped = drape.isClamped && (upper || drape.isChange);
+    const std::string sign = isClamped ? inFont(upper ? "\u2265" : "\u2264") + " " : "";
+    return sign + drapeText(drape, upper ? drape.most : drape.least);
+}
+
 Legend legendOf(const AtlasDrape& drape) {
-    const std::string top = drape.isClamped ? inFont("\u2265") + " " : "";
-    return {std::string(planet::textOf(drape.measure).name), rampEntries([&](double share) {
-                return (share == 1 ? top : "") + figureText(drape.measure, valueOf(drape, share));
-            })};
+    Legend legend{fmt::format("{}{}", planet::textOf(drape.measure).name, drape.isChange ? ", change" : ""),
+                  {}};
+    const auto add = [&](double value, const std::string& text) {
+        legend.entries.push_back({drapeColour(drape, value), text});
+    };
+    if (drape.cellsOnScale > 0) {
+        const bool isOneValue = drape.least == drape.most;
+        add(drape.least, scaleEndText(drape, false));
+        for (int i = 1; i < 4 && !isOneValue; ++i) {
+            const double value = valueOf(drape, i / 4.0);
+            add(value, drapeText(drape, value));
+        }
+        if (!isOneValue) add(drape.most, scaleEndText(drape, true));
+    }
+    if (drape.hasUnbounded)
+        legend.entries.push_back({unboundedColour, drape.isChange ? "bound lost" : "no bound"});
+    if (drape.hasGained) legend.entries.push_back({gainedColour, "bound gained"});
+    return legend;
 }
 
 Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,

@@ -35,6 +35,10 @@ struct LegendFacts {
     const AtlasDrape* atlas = nullptr;    // for ColourBy::Atlas; null without one
 };
 std::vector<LegendRegion> legendRegions(const planet::Planet& planet);
+// Returns a value of a drape with its unit: "1.24 px", or "+0.2 px" for a change.
+std::string drapeText(const AtlasDrape& drape, double value);
+// Returns the label of an end of the scale: "≥ 1.24 px" if some values are beyond it.
+std::string scaleEndText(const AtlasDrape& drape, bool upper);
 Legend legendOf(const AtlasDrape& drape);
 Legend legendOf(const OverlaySettings& overlay, double tauPx, std::uint32_t deepestLevel,
                 const LegendFacts& facts = {});

@@ -9,6 +9,7 @@
 
 #include "app/base/text.h"
 #include "app/flight/flight_record.h"
+#include "planet/measure/atlas_file.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/tables.h"
 #include "ui/kit/theme.h"
@@ -106,6 +107,9 @@ bool accept(OpenDialogState& state, Commands& commands) {
         case FilePurpose::TraceB:
             commands.push_back(StartTraceCompare{path});
             break;
+        case FilePurpose::EarlierAtlas:
+            commands.push_back(CompareAtlas{path});
+            break;
     }
     return true;
 }
@@ -125,6 +129,9 @@ DialogTexts textsFor(FilePurpose purpose) {
     if (purpose == FilePurpose::TraceB)
         return {"Choose a trace as B", "Path of a second trace of the same flight", "Compare",
                 "This folder contains no trace (.lodtrace)."};
+    if (purpose == FilePurpose::EarlierAtlas)
+        return {"Choose an earlier survey", "Path of an earlier atlas of the same viewpoints", "Compare",
+                "This folder contains no atlas (.atlas)."};
     return {"Open a file", "Path of a chunk file, an elevation image or raster, a world file or a cube face",
             "Open"};
 }
@@ -148,6 +155,8 @@ bool mayBeOpened(const fs::path& file, FilePurpose purpose) {
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
     if (purpose == FilePurpose::TraceB) return ending == ".lodtrace";
+    if (purpose == FilePurpose::EarlierAtlas) return ending == ".atlas";
+    if (planet::isNamedAtlas(file)) return true;
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 

@@ -31,7 +31,7 @@ bool mayBeOpened(const std::filesystem::path& file, FilePurpose purpose);
 // Sets the dialog's folder and its entries, without hidden files.
 void listFolder(const std::filesystem::path& folder, OpenDialogState& state);
 
-// Call every frame. Appends OpenFile, ChooseColourImage, StartCompare or StartTraceCompare, by the purpose.
+// Call every frame. Appends OpenFile, ChooseColourImage, StartCompare, StartTraceCompare or CompareAtlas, by the purpose.
 void openDialog(OpenDialogState& state, Commands& commands);
 
 }  // namespace worldy::ui

@@ -73,6 +73,60 @@ TEST(AtlasDrape, ARareHugeValueDoesNotSpoilTheScale) {
     EXPECT_TRUE(drape.isClamped);
 }
 
+TEST(AtlasDrape, WhatHasNoBoundIsOnNoScaleAndHasAColourOfItsOwn) {
+    constexpr double noBound = std::numeric_limits<double>::infinity();
+    std::vector<AtlasCell> some = cells;
+    some.push_back(cellOf({Face::NegY, 1, 0, 0}, noBound));
+    const AtlasDrape drape = drapeOf(some, AtlasMeasure::Triangles, 0);
+    EXPECT_EQ(drape.most, 90);
+    EXPECT_FALSE(drape.isClamped);
+    EXPECT_TRUE(drape.hasUnbounded);
+    EXPECT_EQ(atlasColour(&drape, {Face::NegY, 0, 0, 0}), unboundedColour);
+    EXPECT_EQ(atlasColour(&drape, {Face::PosX, 2, 2, 2}), rampColour(1));
+    EXPECT_FALSE(drapeOf(cells, AtlasMeasure::Triangles, 0).hasUnbounded);
+}
+
+const std::vector<AtlasCell> changes = {cellOf({Face::PosX, 1, 0, 0}, -8), cellOf({Face::PosX, 1, 1, 0}, 2),
+                                        cellOf({Face::PosX, 1, 0, 1}, 0),  cellOf({Face::PosX, 1, 1, 1}, 0),
+                                        cellOf({Face::NegY, 1, 0, 0}, -4), cellOf({Face::NegY, 1, 1, 0}, 0)};
+
+TEST(AtlasDrape, ChangesHaveAScaleThatIsAsLongBelowZeroAsAbove) {
+    const AtlasDrape drape = changeDrapeOf(changes, AtlasMeasure::Triangles, 0);
+    EXPECT_EQ(drape.least, -8);
+    EXPECT_EQ(drape.most, 8);
+    EXPECT_FALSE(drape.isClamped);
+    EXPECT_EQ(shareOf(drape, 0), 0.5);
+    EXPECT_EQ(atlasColour(&drape, {Face::PosX, 1, 0, 0}), changeColour(0));
+    EXPECT_EQ(atlasColour(&drape, {Face::PosX, 1, 0, 1}), changeColour(0.5));
+}
+
+TEST(AtlasDrape, ASquareWithBothShowsWhatGotWorse) {
+    const AtlasDrape drape = changeDrapeOf(changes, AtlasMeasure::Triangles, 0);
+    EXPECT_EQ(valueAt(drape, {Face::PosX, 0, 0, 0}), 2);
+    EXPECT_EQ(valueAt(drape, {Face::NegY, 0, 0, 0}), -4);
+}
+
+TEST(AtlasDrape, WithoutAnyChangeEverythingHasTheColourOfNone) {
+    const std::vector<AtlasCell> same = {cellOf({Face::PosX, 1, 0, 0}, 0)};
+    const AtlasDrape drape = changeDrapeOf(same, AtlasMeasure::Triangles, 0);
+    EXPECT_EQ(drape.most, 0);
+    EXPECT_EQ(atlasColour(&drape, {Face::PosX, 1, 0, 0}), changeColour(0.5));
+}
+
+TEST(AtlasDrape, LostAndGainedBoundsAreOnNoScaleAndHaveColoursOfTheirOwn) {
+    constexpr double noBound = std::numeric_limits<double>::infinity();
+    std::vector<AtlasCell> some = changes;
+    some.push_back(cellOf({Face::PosY, 1, 0, 0}, noBound));
+    some.push_back(cellOf({Face::NegZ, 1, 0, 0}, -noBound));
+    const AtlasDrape drape = changeDrapeOf(some, AtlasMeasure::Triangles, 0);
+    EXPECT_EQ(drape.most, 8);
+    EXPECT_TRUE(drape.hasUnbounded);
+    EXPECT_TRUE(drape.hasGained);
+    EXPECT_EQ(drape.cellsOnScale, changes.size());
+    EXPECT_EQ(atlasColour(&drape, {Face::PosY, 1, 0, 0}), unboundedColour);
+    EXPECT_EQ(atlasColour(&drape, {Face::NegZ, 1, 0, 0}), gainedColour);
+}
+
 TEST(AtlasDrape, ColoursAreThoseOfTheRampAndGreyWhereNothingIsKnown) {
     const AtlasDrape drape = drapeOf(cells, AtlasMeasure::Triangles, 0);
     EXPECT_EQ(atlasColour(&drape, {Face::PosX, 2, 2, 2}), rampColour(1));

@@ -71,5 +71,36 @@ TEST(OverlayLegend, namesTheLeavesTheirSpacingAndTheLayers) {
     EXPECT_EQ(legendOf(overlay, 2, 3).entries.size(), 1u) << "the source is not known";
 }
 
+TEST(OverlayLegend, TheScaleOfAnAtlasEndsWithWhatHasNoBoundAndIsOneEntryForOneValue) {
+    AtlasDrape drape{.measure = planet::AtlasMeasure::EpsPx, .least = 1, .most = 3, .isClamped = true};
+    drape.cellsOnScale = 5;
+    drape.hasUnbounded = true;
+    const Legend legend = legendOf(drape);
+    ASSERT_EQ(legend.entries.size(), 6u);
+    EXPECT_EQ(legend.entries[0].label, "1 px");
+    EXPECT_EQ(legend.entries[2].label, "2 px");
+    EXPECT_EQ(legend.entries[5].label, "no bound");
+    EXPECT_EQ(legend.entries[5].colour, unboundedColour);
+    drape.most = 1;
+    drape.hasUnbounded = false;
+    EXPECT_EQ(legendOf(drape).entries.size(), 1u);
+}
+
+TEST(OverlayLegend, ChangesOfAnAtlasAreSignedAndTellLostAndGainedBounds) {
+    AtlasDrape drape{.measure = planet::AtlasMeasure::EpsPx, .isChange = true, .least = -2, .most = 2};
+    drape.cellsOnScale = 5;
+    drape.hasUnbounded = drape.hasGained = true;
+    const Legend legend = legendOf(drape);
+    EXPECT_EQ(legend.title, "Screen-space error \u03b5, change");
+    ASSERT_EQ(legend.entries.size(), 7u);
+    EXPECT_EQ(legend.entries[0].label, "-2 px");
+    EXPECT_EQ(legend.entries[2].label, "0");
+    EXPECT_EQ(legend.entries[4].label, "+2 px");
+    EXPECT_EQ(legend.entries[5].label, "bound lost");
+    EXPECT_EQ(legend.entries[6].label, "bound gained");
+    drape.cellsOnScale = 0;
+    EXPECT_EQ(legendOf(drape).entries.size(), 2u);
+}
+
 }  // namespace
 }  // namespace worldy::ui

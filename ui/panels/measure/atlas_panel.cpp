@@ -9,15 +9,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/base/text.h"
 #include "app/measure/atlas_table.h"
 #include "app/scene/atlas_drape.h"
 #include "app/scene/overlay_colours.h"
+#include "app/settings/setting_difference.h"
 #include "app/settings/view_settings.h"
 #include "planet/measure/atlas.h"
+#include "planet/measure/atlas_diff.h"
 #include "planet/measure/atlas_sampling.h"
 #include "planet/sphere/chunk_id.h"
 #include "ui/kit/columns.h"
@@ -48,58 +52,138 @@ const AtlasView& atlasOf(const EditorView& view) {
     return view.instruments.atlas;
 }
 
+void resumeButton(const EditorView& view, Commands& commands) {
+    sameLineForButton("Resume");
+    beginGrey(!view.planet, "No planet is open.");
+    if (button(
+            "Resume",
+            "Continues the shown survey, which is not finished, with its own settings and viewpoints. The "
+            "open planet must be the same bake with the same regions. worldy atlas --resume does the same."))
+        commands.push_back(ResumeAtlas{});
+    endGrey();
+}
+
+const char* whyNoComparison(const EditorView& view) {
+    if (atlasOf(view).running) return "A survey is running.";
+    return atlasOf(view).atlas->isFinished ? "" : "The survey is not finished.";
+}
+
+void atlasComparisonButtons(const EditorView& view, const AtlasPanelState& state, Commands& commands) {
+    const std::string_view why = whyNoComparison(view);
+    beginGrey(!why.empty(), why.data());
+    if (button("Compare with...",
+               "Opens an earlier survey of the same viewpoints, to show what has changed since."))
+        commands.push_back(AskForFile{FilePurpose::EarlierAtlas});
+    sameLineForButton("Survey again");
+    beginGrey(!view.planet, "No planet is open.");
+    if (button(
+            "Survey again",
+            "Surveys the viewpoints of this atlas on the open planet, and shows what has changed, as worldy "
+            "atlas --diff does."))
+        commands.push_back(RevisitAtlas{!state.withCurrentSettings});
+    endGrey();
+    endGrey();
+}
+
+void atlasProgress(const AtlasView& atlas, Commands& commands) {
+    sameLineForButton("Cancel");
+    beginGrey(atlas.cancelling, "The survey is ending.");
+    if (button("Cancel", "Ends the survey. What was surveyed is kept, and Resume continues it."))
+        commands.push_back(CancelAtlas{});
+    endGrey();
+    const double share = atlas.progress ? static_cast<double>(atlas.progress->done) /
+                                              static_cast<double>(atlas.progress->total)
+                                        : 0;
+    const std::string text =
+        atlas.progress ? fmt::format("{} of {} viewpoints", atlas.progress->done, atlas.progress->total)
+                       : std::string("reading chunks");
+    ImGui::ProgressBar(static_cast<float>(share), {-1, 0}, text.c_str());
+}
+
+void atlasSurveyButtons(const EditorView& view, const AtlasPanelState& state, Commands& commands) {
+    sameLineForButton("Survey");
+    beginGrey(!view.planet, "No planet is open.");
+    if (button("Survey",
+               "Surveys the open planet in the background with the current settings, 4 headings, and 200 m, "
+               "5 km and 50 km above the ground. The atlas is saved beside the screenshots. worldy atlas "
+               "has more options."))
+        commands.push_back(StartAtlas{static_cast<std::uint64_t>(state.viewpoints), state.measuresError});
+    endGrey();
+    const planet::Atlas* const atlas = atlasOf(view).atlas;
+    if (atlas && !atlas->isFinished) resumeButton(view, commands);
+}
+
+void atlasSurveyOptions(const AtlasView& atlas, AtlasPanelState& state) {
+    slider("Viewpoints", state.viewpoints, 1000, 72, 20'000, "%d",
+           "Most viewpoints of the next survey. Where the planet differs most, they are closest.",
+           ImGuiSliderFlags_Logarithmic);
+    checkbox("True error", state.measuresError, false,
+             "Also measures the true error, which takes about a hundred times as long.");
+    if (!atlas.atlas) return;
+    secondColumn("Current settings");
+    checkbox("Current settings", state.withCurrentSettings, false,
+             "\"Survey again\" takes the current settings, and not those of this atlas. The regions are "
+             "those of now "
+             "in either case.");
+}
+
 void atlasSurveyControls(const EditorView& view, AtlasPanelState& state, Commands& commands) {
     const AtlasView& atlas = atlasOf(view);
     if (button("Open...", "Opens an atlas that worldy atlas or this panel has written."))
         commands.push_back(AskForFile{});
-    if (atlas.running) {
-        sameLineForButton("Cancel");
-        beginGrey(atlas.cancelling, "The survey is ending.");
-        if (button("Cancel", "Ends the survey and discards it.")) commands.push_back(CancelAtlas{});
-        endGrey();
-        const double share = atlas.progress ? static_cast<double>(atlas.progress->done) /
-                                                  static_cast<double>(atlas.progress->total)
-                                            : 0;
-        const std::string text =
-            atlas.progress ? fmt::format("{} of {} viewpoints", atlas.progress->done, atlas.progress->total)
-                           : std::string("reading chunks");
-        ImGui::ProgressBar(static_cast<float>(share), {-1, 0}, text.c_str());
-    } else {
-        sameLineForButton("Survey");
-        beginGrey(!view.planet, "No planet is open.");
-        if (button(
-                "Survey",
-                "Surveys the open planet in the background with the current settings, 4 headings, and 200 m, "
-                "5 km and 50 km above the ground. The atlas is saved beside the screenshots. worldy atlas "
-                "has more options, and can be interrupted."))
-            commands.push_back(StartAtlas{static_cast<std::uint64_t>(state.viewpoints), state.measuresError});
-        endGrey();
-        slider("Viewpoints", state.viewpoints, 1000, 72, 20'000, "%d",
-               "Most viewpoints of the next survey. Where the planet differs most, they are closest.",
-               ImGuiSliderFlags_Logarithmic);
-        checkbox("True error", state.measuresError, false,
-                 "Also measures the true error, which takes about a hundred times as long.");
-    }
+    if (atlas.running)
+        atlasProgress(atlas, commands);
+    else
+        atlasSurveyButtons(view, state, commands);
+    if (atlas.atlas) atlasComparisonButtons(view, state, commands);
     if (!atlas.problem.empty()) wrappedText(atlas.problem, palette().warning);
+    if (!atlas.comparisonProblem.empty()) wrappedText(atlas.comparisonProblem, palette().warning);
+    if (!atlas.running) atlasSurveyOptions(atlas, state);
 }
 
-// Returns the measures that the atlas has.
-std::vector<AtlasMeasure> atlasMeasuresOf(const planet::Atlas& atlas) {
+bool showsChange(const AtlasView& atlas) {
+    return atlas.comparison && atlas.drape->isChange;
+}
+
+// Returns the changes of the shown measure; null if the survey itself is shown.
+const planet::AtlasMeasureDiff* shownDiff(const AtlasView& atlas) {
+    if (!showsChange(atlas)) return nullptr;
+    const auto& measures = atlas.comparison->diff.measures;
+    const auto found = std::ranges::find(measures, atlas.drape->measure, &planet::AtlasMeasureDiff::measure);
+    return found == measures.end() ? nullptr : &*found;
+}
+
+// Returns the measures that can be shown.
+std::vector<AtlasMeasure> atlasMeasuresOf(const AtlasView& atlas) {
     std::vector<AtlasMeasure> measures;
-    for (const AtlasSpread& one : spreadsOf(atlas.viewpoints)) measures.push_back(one.measure);
+    if (showsChange(atlas)) {
+        for (const planet::AtlasMeasureDiff& one : atlas.comparison->diff.measures)
+            measures.push_back(one.measure);
+    } else {
+        for (const AtlasSpread& one : atlas.spreads) measures.push_back(one.measure);
+    }
     return measures;
 }
 
 void atlasChoiceControls(const AtlasView& atlas, ViewSettings& settings, Commands& commands) {
-    const std::vector<AtlasMeasure> measures = atlasMeasuresOf(*atlas.atlas);
+    bool isChange = showsChange(atlas);
+    bool changed = false;
+    if (atlas.comparison) {
+        int shown = isChange ? 1 : 0;
+        changed = choiceIndex("Show", shown, 1, "survey\0change\0",
+                              "The measures of this survey, or their change since the earlier one: positive "
+                              "where it got worse, negative where it got better.");
+        isChange = shown == 1;
+    }
+    const std::vector<AtlasMeasure> measures = atlasMeasuresOf(atlas);
     std::string names;
     int index = 0;
     for (std::size_t i = 0; i < measures.size(); ++i) {
         names += std::string(planet::textOf(measures[i]).name) + '\0';
         if (measures[i] == atlas.drape->measure) index = static_cast<int>(i);
     }
-    bool changed = choiceIndex("Measure", index, index, names.c_str(),
-                               planet::textOf(atlas.drape->measure).meaning.data());
+    changed |= choiceIndex("Measure", index, index, names.c_str(),
+                           planet::textOf(atlas.drape->measure).meaning.data());
     std::string altitudes;
     for (const double altitudeM : atlas.atlas->survey.grid.altitudesM)
         altitudes += distanceText(altitudeM) + '\0';
@@ -107,7 +191,7 @@ void atlasChoiceControls(const AtlasView& atlas, ViewSettings& settings, Command
     changed |= choiceIndex("Altitude", altitude, altitude, altitudes.c_str(),
                            "Altitude of the viewpoints above the ground or a drawn sea.");
     if (changed && !measures.empty())
-        commands.push_back(ChooseAtlas{measures[static_cast<std::size_t>(index)], altitude});
+        commands.push_back(ChooseAtlas{measures[static_cast<std::size_t>(index)], altitude, isChange});
     bool tint = settings.overlay.colourBy == ColourBy::Atlas;
     if (ImGui::Checkbox("Tint planet", &tint))
         settings.overlay.colourBy = tint ? ColourBy::Atlas : ColourBy::None;
@@ -120,22 +204,70 @@ void atlasChoiceControls(const AtlasView& atlas, ViewSettings& settings, Command
         "the colour of the largest value.");
 }
 
+void atlasSpreadValues(const AtlasView& atlas) {
+    const auto spread = std::ranges::find(atlas.spreads, atlas.drape->measure, &AtlasSpread::measure);
+    if (spread == atlas.spreads.end() || !beginValues("atlas spread")) return;
+    const char* const all = "Over all viewpoints and altitudes.";
+    valueRow("Median", figureText(spread->measure, spread->median), all);
+    valueRow("P90", figureText(spread->measure, spread->p90), all);
+    valueRow("P99", figureText(spread->measure, spread->p99), all);
+    valueRow("Maximum", figureText(spread->measure, spread->most), all);
+    if (spread->unbounded > 0)
+        valueRow("No bound", fmt::format("{} of {}", spread->unbounded, spread->count),
+                 "Viewpoints from which a drawn chunk is at most as far away as its error is large, as where "
+                 "the eye "
+                 "is inside its bounds. So no number of pixels bounds the error. Something keeps the chunk "
+                 "coarse: a "
+                 "region, a limited level, a budget, or a slow disk.");
+    endValues();
+}
+
+void atlasChangeValues(const planet::AtlasMeasureDiff& diff, const AtlasDiff& all) {
+    if (!beginValues("atlas change")) return;
+    const char* const which = "Viewpoints of all altitudes.";
+    valueRow("Grew", fmt::format("{} of {}", diff.grew, diff.compared), which,
+             diff.grew > 0 ? &palette().warning : nullptr);
+    valueRow("Shrank", fmt::format("{} of {}", diff.shrank, diff.compared), which);
+    valueRow("Largest increase", diff.grew > 0 ? changeText(diff.measure, diff.moves.front().by()) : "-",
+             which);
+    valueRow("Largest decrease", diff.shrank > 0 ? changeText(diff.measure, diff.moves.back().by()) : "-",
+             which);
+    valueRow("Changed chunks", all.comparesTrees ? fmt::format("{}", all.chunks.size()) : "unknown",
+             "Chunks down to level 8 that the bake of this survey has added, removed or changed, or under "
+             "which it "
+             "has. Unknown if one of the surveys has no list of chunks.");
+    endValues();
+}
+
 void aboutAtlas(const AtlasView& atlas) {
     const planet::Atlas& all = *atlas.atlas;
-    wrappedText(fmt::format("{}: {} viewpoints{}", atlas.name, all.viewpoints.size(),
-                            all.isFinished ? "" : ", unfinished"),
-                palette().dim);
+    std::string text = fmt::format("{}: {} viewpoints{}", atlas.name, all.viewpoints.size(),
+                                   all.isFinished ? "" : ", unfinished");
+    if (atlas.comparison) text += fmt::format(", compared with {}", atlas.comparison->earlier);
+    wrappedText(text, palette().dim);
     if (!atlas.otherBake.empty()) wrappedText(atlas.otherBake, palette().warning);
-    for (const AtlasSpread& one : spreadsOf(all.viewpoints)) {
-        if (one.measure != atlas.drape->measure) continue;
-        if (!beginValues("atlas spread")) return;
-        const char* const all_ = "Over all viewpoints and altitudes.";
-        valueRow("Median", figureText(one.measure, one.median), all_);
-        valueRow("P90", figureText(one.measure, one.p90), all_);
-        valueRow("P99", figureText(one.measure, one.p99), all_);
-        valueRow("Maximum", figureText(one.measure, one.most), all_);
-        endValues();
-    }
+    if (const planet::AtlasMeasureDiff* diff = shownDiff(atlas))
+        return atlasChangeValues(*diff, atlas.comparison->diff);
+    atlasSpreadValues(atlas);
+}
+
+// The comparison with an earlier survey.
+
+void aboutComparison(const AtlasView& atlas) {
+    if (!atlas.comparison)
+        return wrappedText(
+            "Compare with an earlier survey of the same viewpoints, or survey them again after a bake or "
+            "with "
+            "other settings, to see where the planet got worse and better.",
+            palette().dim);
+    constexpr std::size_t listed = 8;
+    const std::vector<SettingDifference>& settings = atlas.comparison->settings;
+    for (std::size_t i = 0; i < std::min(settings.size(), listed); ++i)
+        wrappedText(
+            fmt::format("{}: {} before, {} now", settings[i].setting, settings[i].here, settings[i].there),
+            palette().dim);
+    if (settings.size() > listed)
+        wrappedText(fmt::format("{} more settings differ.", settings.size() - listed), palette().dim);
 }
 
 // The map.
@@ -151,15 +283,23 @@ AtlasMapSquare mapSquareOf(const planet::ChunkId& cell, const PlanPlacement& pla
             {static_cast<float>(to.x), static_cast<float>(to.y)}};
 }
 
-// Returns the viewpoint of a cell with the largest value of the shown measure.
+std::span<const planet::AtlasCell> shownCells(const AtlasView& atlas) {
+    return showsChange(atlas) ? std::span<const planet::AtlasCell>(atlas.comparison->cells) : atlas.cells;
+}
+
+// Returns the viewpoint of a cell with the largest value of the shown measure, or its worse change.
 std::optional<std::size_t> worstViewpointOf(const AtlasView& atlas, const planet::AtlasCell& cell) {
     std::optional<std::size_t> worst;
-    const std::vector<AtlasViewpoint>& all = atlas.atlas->viewpoints;
+    const bool isChange = showsChange(atlas);
+    const std::vector<AtlasViewpoint>& all = isChange ? atlas.comparison->changes : atlas.atlas->viewpoints;
     const auto value = [&](std::size_t i) { return planet::figureOf(all[i].figures, atlas.drape->measure); };
+    const auto isWorse = [&](double a, double than) {
+        return isChange ? a != than && planet::worseChange(a, than) == a : a > than;
+    };
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].place.cell != cell.cell || all[i].place.altitude != cell.altitude || std::isnan(value(i)))
             continue;
-        if (!worst || value(i) > value(*worst)) worst = i;
+        if (!worst || isWorse(value(i), value(*worst))) worst = i;
     }
     return worst;
 }
@@ -175,10 +315,14 @@ void tellAtlasCell(const AtlasView& atlas, const planet::AtlasCell& cell, AtlasP
     if (!worst) return;
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(viewpointText(atlas.atlas->survey, atlas.atlas->viewpoints[*worst]).c_str());
-    for (const AtlasMeasure measure : atlasMeasuresOf(*atlas.atlas)) {
+    for (const AtlasMeasure measure : atlasMeasuresOf(atlas)) {
         const double value = planet::figureOf(atlas.atlas->viewpoints[*worst].figures, measure);
-        ImGui::Text("%s %s", std::string(planet::textOf(measure).name).c_str(),
-                    figureText(measure, value).c_str());
+        std::string text = figureText(measure, value);
+        if (showsChange(atlas)) {
+            const double change = planet::figureOf(atlas.comparison->changes[*worst].figures, measure);
+            text += fmt::format(" ({})", change == 0 ? "unchanged" : changeText(measure, change));
+        }
+        ImGui::Text("%s %s", std::string(planet::textOf(measure).name).c_str(), text.c_str());
     }
     ImGui::TextDisabled("the worst heading   click: fly there with the settings of the survey");
     ImGui::EndTooltip();
@@ -200,13 +344,13 @@ void atlasMap(const AtlasView& atlas, AtlasPanelState& state, Commands& commands
     ImDrawList& drawList = *ImGui::GetWindowDrawList();
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     const planet::AtlasCell* told = nullptr;
-    for (const planet::AtlasCell& cell : atlas.cells) {
+    for (const planet::AtlasCell& cell : shownCells(atlas)) {
         const double value = planet::figureOf(cell.values, atlas.drape->measure);
         if (cell.altitude != atlas.altitude || std::isnan(value)) continue;
         const AtlasMapSquare square = mapSquareOf(cell.cell, placement);
         const float gap = square.end.x - square.start.x > 6 ? 1.0f : 0.0f;
         drawList.AddRectFilled(square.start, {square.end.x - gap, square.end.y - gap},
-                               packedColour(rampColour(shareOf(*atlas.drape, value))));
+                               packedColour(drapeColour(*atlas.drape, value)));
         if (hovered && pointer.x >= square.start.x && pointer.x < square.end.x &&
             pointer.y >= square.start.y && pointer.y < square.end.y)
             told = &cell;
@@ -225,27 +369,70 @@ void atlasMap(const AtlasView& atlas, AtlasPanelState& state, Commands& commands
 // The distribution.
 
 void atlasDistribution(const AtlasView& atlas) {
+    const bool isChange = showsChange(atlas);
     std::vector<float> counts(atlasBuckets);
-    for (const planet::AtlasCell& cell : atlas.cells) {
+    for (const planet::AtlasCell& cell : shownCells(atlas)) {
         const double value = planet::figureOf(cell.values, atlas.drape->measure);
-        if (cell.altitude != atlas.altitude || std::isnan(value)) continue;
+        if (cell.altitude != atlas.altitude || !std::isfinite(value) || (isChange && value == 0)) continue;
         const double share = shareOf(*atlas.drape, value);
         ++counts[std::min(static_cast<std::size_t>(share * atlasBuckets), atlasBuckets - 1)];
     }
-    const auto text = [&](double share) {
-        return figureText(atlas.drape->measure, valueOf(*atlas.drape, share));
-    };
-    const Legend legend = legendOf(*atlas.drape);
-    histogram("atlas histogram", counts, text(0), legend.entries.back().label, {}, 4, text);
+    const auto text = [&](double share) { return drapeText(*atlas.drape, valueOf(*atlas.drape, share)); };
+    histogram("atlas histogram", counts, scaleEndText(*atlas.drape, false), scaleEndText(*atlas.drape, true),
+              {}, 4, text);
     tooltip(
-        "Cells of this altitude by the measure of their worst heading. Values above the 99th percentile are "
-        "in "
-        "the last bucket.");
+        isChange
+            ? "Cells of this altitude by the change of the measure, the worst of their headings, without "
+              "those "
+              "that have not changed. Changes above the 99th percentile of all sizes are in the buckets at "
+              "the ends."
+            : "Cells of this altitude by the measure of their worst heading. Values above the 99th "
+              "percentile "
+              "are in the last bucket, and cells without a bound in none.");
+}
+
+// The lists.
+
+void goButton(std::size_t row, std::size_t viewpoint, AtlasPanelState& state, Commands& commands) {
+    ImGui::TableNextColumn();
+    if (ImGui::SmallButton("Go")) lookFromViewpoint(state, viewpoint, commands);
+    noteItem(fmt::format("Go {}", row));
+    tooltip("Flies to the viewpoint with the settings of the survey. Undo brings the settings back.");
+}
+
+void placeCells(const planet::AtlasSurvey& survey, const AtlasViewpoint& viewpoint) {
+    const planet::CameraPose pose = planet::poseOf(survey, viewpoint);
+    cell(placeText(pose.latitudeDeg, pose.longitudeDeg, 2));
+    cell(distanceText(survey.grid.altitudesM[viewpoint.place.altitude]));
+    cell(fmt::format("{:.0f}\u00b0", pose.headingDeg));
+}
+
+// Returns the sort key of a column of placeCells: 0 place, 1 altitude, 2 heading.
+SortKey placeKey(const planet::AtlasSurvey& survey, const AtlasViewpoint& viewpoint, std::size_t column) {
+    if (column == 0) return planet::poseOf(survey, viewpoint).latitudeDeg;
+    if (column == 1) return survey.grid.altitudesM[viewpoint.place.altitude];
+    return static_cast<double>(viewpoint.place.heading);
+}
+
+// Returns the exported fields of the place of a row, of which viewpointOf makes the viewpoint.
+template <class Row, class ViewpointOf>
+std::vector<ExportField<Row>> placeFields(const planet::AtlasSurvey& survey, const ViewpointOf& viewpointOf) {
+    const auto pose = [&survey, viewpointOf](const Row& row) {
+        return planet::poseOf(survey, viewpointOf(row));
+    };
+    return {{"latitude_deg", [pose](const Row& row) { return pose(row).latitudeDeg; }, true},
+            {"longitude_deg", [pose](const Row& row) { return pose(row).longitudeDeg; }, true},
+            {"above_ground_m",
+             [&survey, viewpointOf](const Row& row) {
+                 return survey.grid.altitudesM[viewpointOf(row).place.altitude];
+             },
+             true},
+            {"heading_deg", [pose](const Row& row) { return pose(row).headingDeg; }, true}};
 }
 
 constexpr std::array atlasWorstColumns = {
     TableColumn{"##go", 0.1f, nullptr, "Go xx"},
-    TableColumn{"Value", 0.8f, "The chosen measure.", "1.86e+09 px"},
+    TableColumn{"Value", 0.8f, "The chosen measure.", "no bound"},
     TableColumn{"Place", 1.4f, "Latitude and longitude.", "88.88\u00b0 N 188.88\u00b0 W"},
     TableColumn{"Altitude", 0.7f, "Above the ground or a drawn sea.", "50.0 km"},
     TableColumn{"Heading", 0.7f, "Clockwise from north.", "270\u00b0"},
@@ -259,42 +446,73 @@ void atlasWorstList(const AtlasView& atlas, AtlasPanelState& state, Commands& co
     const auto viewpointOf = [&](std::size_t row) -> const AtlasViewpoint& {
         return all.viewpoints[worst[row]];
     };
+    const auto value = [&](std::size_t row) {
+        return planet::figureOf(viewpointOf(row).figures, atlas.drape->measure);
+    };
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
-        const AtlasViewpoint& one = viewpointOf(row);
-        switch (column) {
-            case 2:
-                return planet::poseOf(all.survey, one).latitudeDeg;
-            case 3:
-                return all.survey.grid.altitudesM[one.place.altitude];
-            case 4:
-                return static_cast<double>(one.place.heading);
-            default:
-                return planet::figureOf(one.figures, atlas.drape->measure);
-        }
+        return column < 2 ? SortKey(value(row)) : placeKey(all.survey, viewpointOf(row), column - 2);
     };
     tableRows(worst.size(), key, [&](std::size_t row) {
-        const AtlasViewpoint& one = viewpointOf(row);
-        const planet::CameraPose pose = planet::poseOf(all.survey, one);
-        ImGui::TableNextColumn();
-        if (ImGui::SmallButton("Go")) lookFromViewpoint(state, worst[row], commands);
-        noteItem(fmt::format("Go {}", row));
-        tooltip("Flies to the viewpoint with the settings of the survey. Undo brings the settings back.");
-        cell(figureText(atlas.drape->measure, planet::figureOf(one.figures, atlas.drape->measure)));
-        cell(placeText(pose.latitudeDeg, pose.longitudeDeg, 2));
-        cell(distanceText(all.survey.grid.altitudesM[one.place.altitude]));
-        cell(fmt::format("{:.0f}\u00b0", pose.headingDeg));
+        goButton(row, worst[row], state, commands);
+        cell(figureText(atlas.drape->measure, value(row)));
+        placeCells(all.survey, viewpointOf(row));
     });
     using V = AtlasViewpoint;
-    const planet::AtlasSurvey& survey = all.survey;
-    std::vector<ExportField<V>> fields = {
-        {"latitude_deg", [&survey](const V& v) { return planet::poseOf(survey, v).latitudeDeg; }, true},
-        {"longitude_deg", [&survey](const V& v) { return planet::poseOf(survey, v).longitudeDeg; }, true},
-        {"above_ground_m", [&survey](const V& v) { return survey.grid.altitudesM[v.place.altitude]; }, true},
-        {"heading_deg", [&survey](const V& v) { return planet::poseOf(survey, v).headingDeg; }, true}};
+    auto fields = placeFields<V>(all.survey, [](const V& v) -> const V& { return v; });
     for (std::size_t i = 0; i < planet::atlasMeasureCount; ++i) {
         fields.push_back({planet::atlasMeasureTexts[i].key.data(), [i](const V& v) { return v.figures[i]; }});
     }
     endTable(exportTable<V>("atlas", worst.size(), viewpointOf, fields));
+}
+
+constexpr std::array atlasChangeColumns = {
+    TableColumn{"##go", 0.1f, nullptr, "Go xx"},
+    TableColumn{"Change", 0.9f, "Of the chosen measure. Positive is worse.", "bound gained"},
+    TableColumn{"Before", 0.8f, "In the earlier survey.", "1.86e+03 px"},
+    TableColumn{"Now", 0.8f, "In this survey.", "1.86e+03 px"},
+    TableColumn{"Place", 1.4f, "Latitude and longitude.", "88.88\u00b0 N 188.88\u00b0 W"},
+    TableColumn{"Altitude", 0.7f, "Above the ground or a drawn sea.", "50.0 km"},
+    TableColumn{"Heading", 0.7f, "Clockwise from north.", "270\u00b0"},
+};
+
+// Returns the largest increases, then the largest decreases.
+std::vector<planet::AtlasMove> listedMoves(const planet::AtlasMeasureDiff& diff) {
+    const auto begin = diff.moves.begin();
+    std::vector<planet::AtlasMove> moves(
+        begin, begin + static_cast<std::ptrdiff_t>(std::min(diff.grew, atlasWorstListed)));
+    for (std::size_t i = 0; i < std::min(diff.shrank, atlasWorstListed); ++i)
+        moves.push_back(diff.moves[diff.moves.size() - 1 - i]);
+    return moves;
+}
+
+void atlasChangeList(const AtlasView& atlas, const planet::AtlasMeasureDiff& diff, AtlasPanelState& state,
+                     Commands& commands) {
+    if (diff.moves.empty()) return emptyState("This measure is the same at all viewpoints.");
+    const planet::Atlas& all = *atlas.atlas;
+    const std::vector<planet::AtlasMove> moves = listedMoves(diff);
+    if (!beginWideTable("atlas changes", atlasChangeColumns, 1)) return;
+    const auto viewpointOf = [&](const planet::AtlasMove& move) -> const AtlasViewpoint& {
+        return all.viewpoints[move.viewpoint];
+    };
+    const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
+        const planet::AtlasMove& move = moves[row];
+        if (column > 3) return placeKey(all.survey, viewpointOf(move), column - 4);
+        return column == 3 ? move.now : column == 2 ? move.before : move.by();
+    };
+    tableRows(moves.size(), key, [&](std::size_t row) {
+        const planet::AtlasMove& move = moves[row];
+        goButton(row, move.viewpoint, state, commands);
+        cell(changeText(diff.measure, move.by()));
+        cell(figureText(diff.measure, move.before));
+        cell(figureText(diff.measure, move.now));
+        placeCells(all.survey, viewpointOf(move));
+    });
+    using M = planet::AtlasMove;
+    auto fields = placeFields<M>(all.survey, viewpointOf);
+    fields.push_back({"before", [](const M& move) { return move.before; }});
+    fields.push_back({"now", [](const M& move) { return move.now; }});
+    endTable(exportTable<M>(
+        "atlas changes", moves.size(), [&](std::size_t row) -> const M& { return moves[row]; }, fields));
 }
 
 }  // namespace
@@ -309,28 +527,34 @@ void atlasPanel(const EditorView& view, AtlasPanelState& state, ViewSettings& se
     if (state.shown && *state.shown >= atlas.atlas->viewpoints.size()) state.shown.reset();
     constexpr float mapLines = 16, listLines = 14;
     const float font = ImGui::GetFontSize();
-    const std::array columns = {Column{.title = "Survey",
-                                       .draw =
-                                           [&] {
-                                               atlasSurveyControls(view, state, commands);
-                                               atlasChoiceControls(atlas, settings, commands);
-                                               aboutAtlas(atlas);
-                                           },
-                                       .wanted = 18 * font},
-                                Column{.title = "Map",
-                                       .share = 1.4f,
-                                       .stackedLines = mapLines,
-                                       .draw = [&] { atlasMap(atlas, state, commands); },
-                                       .wanted = 20 * font},
-                                Column{.title = "Worst viewpoints",
-                                       .share = 1.4f,
-                                       .stackedLines = listLines,
-                                       .draw =
-                                           [&] {
-                                               atlasDistribution(atlas);
-                                               atlasWorstList(atlas, state, commands);
-                                           },
-                                       .wanted = listTableWidth(atlasWorstColumns)}};
+    const planet::AtlasMeasureDiff* const diff = shownDiff(atlas);
+    const std::array columns = {
+        Column{.title = "Survey",
+               .draw =
+                   [&] {
+                       atlasSurveyControls(view, state, commands);
+                       atlasChoiceControls(atlas, settings, commands);
+                       aboutAtlas(atlas);
+                       aboutComparison(atlas);
+                   },
+               .wanted = 18 * font},
+        Column{.title = "Map",
+               .share = 1.4f,
+               .stackedLines = mapLines,
+               .draw = [&] { atlasMap(atlas, state, commands); },
+               .wanted = 20 * font},
+        Column{.title = diff ? "Largest changes" : "Worst viewpoints",
+               .share = 1.4f,
+               .stackedLines = listLines,
+               .draw =
+                   [&] {
+                       if (!diff || !diff->moves.empty()) atlasDistribution(atlas);
+                       if (diff)
+                           atlasChangeList(atlas, *diff, state, commands);
+                       else
+                           atlasWorstList(atlas, state, commands);
+                   },
+               .wanted = diff ? listTableWidth(atlasChangeColumns) : listTableWidth(atlasWorstColumns)}};
     drawColumns("atlas", columns);
 }
 

@@ -12,6 +12,7 @@ namespace worldy::ui {
 struct AtlasPanelState {
     int viewpoints = 1000;               // of the next survey
     bool measuresError = false;          // of the next survey
+    bool withCurrentSettings = false;    // surveys again with them
     std::optional<std::size_t> shown{};  // the viewpoint that was looked from
 };
 
