@@ -119,10 +119,11 @@ void addBake(CLI::App& command, BakeOptions& options) {
     command.add_option("--threads", settings.threads, "Threads; 0: one per core (0)")
         ->check(CLI::Range(0, 1024));
     command
-        .add_option("--compression-level", settings.compressionLevel,
-                    fmt::format("Compression level, from {} (largest file) to {} (slowest bake) ({})",
-                                planet::minCompressionLevel, planet::maxCompressionLevel,
-                                planet::defaultCompressionLevel))
+        .add_option(
+            "--compression-level", settings.compressionLevel,
+            fmt::format("Compression level, from {} (largest file) to {} (smallest file, slowest bake) ({})",
+                        planet::minCompressionLevel, planet::maxCompressionLevel,
+                        planet::defaultCompressionLevel))
         ->check(CLI::Range(planet::minCompressionLevel, planet::maxCompressionLevel));
     command.add_option("--reuse", settings.reuse,
                        "Earlier bake, perhaps the output itself, to copy unchanged chunks from");

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -61,6 +62,18 @@ public:
         out_.insert(out_.end(), bytes.begin(), bytes.end());
     }
 
+    // Appends a number in groups of 7 bits, the lowest first. Bit 7 of a byte says that another one follows (LEB128).
+    void putVariable(std::uint64_t value) {
+        for (; value >= 128; value >>= 7) put(static_cast<std::uint8_t>(value | 128));
+        put(static_cast<std::uint8_t>(value));
+    }
+
+    // The same of a signed number, whose sign becomes the lowest bit.
+    void putVariableSigned(std::int64_t value) {
+        const auto bits = static_cast<std::uint64_t>(value);
+        putVariable(value < 0 ? ~bits << 1 | 1 : bits << 1);
+    }
+
 private:
     std::vector<std::byte>& out_;
 };
@@ -74,6 +87,26 @@ public:
     T get() {
         assert(bytes_.size() >= sizeof(T));
         return readLittleEndian<T>(take(sizeof(T)).data());
+    }
+
+    // Return a number of ByteWriter::putVariable and putVariableSigned; nothing if it ends early or exceeds 64 bits.
+    std::optional<std::uint64_t> getVariable() {
+        std::uint64_t value = 0;
+        for (int shift = 0; shift < 64 && !bytes_.empty(); shift += 7) {
+            const auto group = get<std::uint8_t>();
+            const std::uint64_t bits = group & 127u;
+            if (bits << shift >> shift != bits) return std::nullopt;
+            value |= bits << shift;
+            if (group < 128) return value;
+        }
+        return std::nullopt;
+    }
+
+    std::optional<std::int64_t> getVariableSigned() {
+        const auto coded = getVariable();
+        if (!coded) return std::nullopt;
+        const std::uint64_t bits = *coded >> 1;
+        return static_cast<std::int64_t>((*coded & 1) == 0 ? bits : ~bits);
     }
 
     std::span<const std::byte> take(std::size_t count) {

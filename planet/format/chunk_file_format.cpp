@@ -8,8 +8,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "planet/base/little_endian.h"
+#include "planet/base/try.h"
 
 namespace planet {
 
@@ -44,6 +46,13 @@ std::uint64_t distanceTo(const BlockLocation& location, std::uint64_t blockOffse
 }
 std::uint64_t offsetAt(std::uint64_t distance, std::uint64_t blockOffset) {
     return distance == 0 ? 0 : blockOffset - distance;
+}
+
+constexpr std::int64_t widestRange = (std::int64_t{1} << 32) - 1;
+
+bool isInt32(std::int64_t value) {
+    return value >= std::numeric_limits<std::int32_t>::min() &&
+           value <= std::numeric_limits<std::int32_t>::max();
 }
 
 void putText(ByteWriter& out, std::string_view text, std::size_t maxBytes) {
@@ -163,6 +172,43 @@ std::string treeProblem(const ChunkFileInfo& info) {
     return {};
 }
 
+constexpr std::size_t distanceBytes = 6;
+
+void putDistance(ByteWriter& out, std::uint64_t distance) {
+    assert(distance >> (8 * distanceBytes) == 0);
+    for (std::size_t i = 0; i < distanceBytes; ++i) out.put(static_cast<std::uint8_t>(distance >> (8 * i)));
+}
+
+std::uint64_t distanceFrom(std::span<const std::byte> bytes) {
+    std::uint64_t distance = 0;
+    for (std::size_t i = 0; i < distanceBytes; ++i)
+        distance |= std::to_integer<std::uint64_t>(bytes[i]) << (8 * i);
+    return distance;
+}
+
+// Reads the entry of a chunk that has children.
+Result<ChunkEntry> entryFrom(ByteReader& in, std::uint64_t blockOffset) {
+    const auto tooSmall = [] { return badInput("it is too small for its index"); };
+    const auto outOfRange = [] { return badInput("its index entry is out of range"); };
+    ChunkEntry entry;
+    if (in.rest().size() < 2 * sizeof(float)) return tooSmall();
+    entry.deltaCM = in.get<float>();
+    entry.deltaTightM = in.get<float>();
+    const auto lowest = in.getVariableSigned();
+    const auto range = in.getVariableSigned();
+    const auto size = in.getVariable();
+    if (!lowest || !range || !size || in.rest().size() < distanceBytes) return tooSmall();
+    if (!isInt32(*lowest) || *range < -widestRange || *range > widestRange || !isInt32(*lowest + *range) ||
+        *size > std::numeric_limits<std::uint32_t>::max())
+        return outOfRange();
+    entry.minStep = static_cast<std::int32_t>(*lowest);
+    entry.maxStep = static_cast<std::int32_t>(*lowest + *range);
+    entry.children.size = static_cast<std::uint32_t>(*size);
+    entry.children.offset = offsetAt(distanceFrom(in.take(distanceBytes)), blockOffset);
+    if (!entry.children.exists()) return outOfRange();
+    return entry;
+}
+
 }  // namespace
 
 void putIndex(std::vector<std::byte>& block, std::span<const ChunkEntry> entries, std::uint64_t blockOffset) {
@@ -176,10 +222,10 @@ void putIndex(std::vector<std::byte>& block, std::span<const ChunkEntry> entries
         if (!entry.children.exists()) continue;
         out.put(entry.deltaCM);
         out.put(entry.deltaTightM);
-        out.put(entry.minStep);
-        out.put(entry.maxStep);
-        out.put(entry.children.size);
-        out.put(distanceTo(entry.children, blockOffset));
+        out.putVariableSigned(entry.minStep);
+        out.putVariableSigned(std::int64_t{entry.maxStep} - entry.minStep);
+        out.putVariable(entry.children.size);
+        putDistance(out, distanceTo(entry.children, blockOffset));
     }
 }
 
@@ -192,19 +238,11 @@ Result<BlockIndex> indexFrom(std::span<const std::byte> block, int chunks, bool 
     if (withChildren != 0 && !mayHaveChildren)
         return badInput("its index names children below the deepest level");
     BlockIndex index;
-    index.bytes = 1 + static_cast<std::size_t>(std::popcount(withChildren)) * chunkEntryBytes;
-    if (block.size() < index.bytes) return badInput("it is too small for its index");
     for (std::size_t q = 0; q < static_cast<std::size_t>(chunks); ++q) {
         if ((withChildren >> q & 1) == 0) continue;
-        ChunkEntry& entry = index.entries[q];
-        entry.deltaCM = in.get<float>();
-        entry.deltaTightM = in.get<float>();
-        entry.minStep = in.get<std::int32_t>();
-        entry.maxStep = in.get<std::int32_t>();
-        entry.children.size = in.get<std::uint32_t>();
-        entry.children.offset = offsetAt(in.get<std::uint64_t>(), blockOffset);
-        if (!entry.children.exists()) return badInput("its index entry is out of range");
+        TRY_ASSIGN(index.entries[q], entryFrom(in, blockOffset));
     }
+    index.bytes = block.size() - in.rest().size();
     return index;
 }
 

@@ -15,7 +15,7 @@
 
 namespace planet {
 
-inline constexpr std::size_t chunkEntryBytes = 28;
+inline constexpr std::size_t largestEntryBytes = 29;
 inline constexpr std::size_t checksumBytes = 8;
 inline constexpr std::size_t colourEntryBytes = 16;
 
@@ -25,10 +25,11 @@ struct BlockIndex {
     std::array<ChunkEntry, quadrantCount> entries;  // without children: a leaf
     std::size_t bytes = 1;
 };
-inline constexpr std::size_t largestIndexBytes = 1 + quadrantCount * chunkEntryBytes;
+inline constexpr std::size_t largestIndexBytes = 1 + quadrantCount * largestEntryBytes;
 
 // Appends the index of a block's chunks: four, or one for a root block. Entries name earlier blocks by
-// distance, so a run of blocks can be made before its location in the file is known.
+// distance, so a run of blocks can be made before its location in the file is known. The size of the index does not
+// depend on the distances, which are below 2^48.
 void putIndex(std::vector<std::byte>& block, std::span<const ChunkEntry> entries, std::uint64_t blockOffset);
 
 // Decodes the index of a block of some chunks, [1, 4]. block: at least the index, or all of a shorter block.

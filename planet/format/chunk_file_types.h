@@ -17,7 +17,7 @@
 namespace planet {
 
 inline constexpr std::size_t chunkFileHeaderBytes = 512;
-inline constexpr std::uint32_t chunkFileVersion = 5;
+inline constexpr std::uint32_t chunkFileVersion = 6;
 
 // The location of a block in the file. Offset 0 is the header, so it means "none".
 struct BlockLocation {

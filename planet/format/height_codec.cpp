@@ -10,11 +10,12 @@
 #include <optional>
 #include <utility>
 
-#include "planet/base/cpu_clones.h"
 #include "planet/base/little_endian.h"
 #include "planet/base/try.h"
+#include "planet/format/fitted_block.h"
 #include "planet/format/height_prediction.h"
 #include "planet/format/height_residual_coder.h"
+#include "planet/format/height_rows.h"
 
 namespace planet {
 
@@ -23,20 +24,19 @@ namespace {
 // The low bits of the first byte of a coded refinement; the bits above are the shift. Plain: the missing samples follow
 // uncoded, row by row of each pass. Entropy: one byte per pass (PassChoice) follows, then the output of
 // ResidualEncoder. Both code 16-bit samples, (step >> shift) - base. Wide: the steps follow as 32-bit numbers. Split: the
-// length (u32) and the code of all samples shifted by the fraction bits, which is Plain or Entropy, and then the bits that
-// are shifted out. That is for blocks of which a part is coarse: its low bits are zeros, and the others are noise.
-enum class Storage : std::uint8_t { Plain, Entropy, Wide, Split };
+// length (u32) and the code of all samples shifted by the fraction bits, which is Plain, Entropy or Fitted, and then the
+// bits that are shifted out. That is for blocks of which a part is coarse: its low bits are zeros, and the others are
+// noise. Fitted: 16-bit samples as of Entropy, coded with weights fitted to the block (fitted_block.h). Level: all samples
+// of the fine grid are equal, and no bytes follow.
+enum class Storage : std::uint8_t { Plain, Entropy, Wide, Split, Fitted, Level };
 constexpr int storageBits = 3;
 static_assert(maxFractionBits < 1 << (8 - storageBits));
-
-constexpr std::size_t passCount = allRefinementPasses.size();
+static_assert(maxRowSamples == maxCoarseCells + 1);
 
 // The low 3 bits of a pass's byte are the predictor; the bits above are the shift of all widths plus
 // widthShiftBias.
 constexpr int predictorBits = 3;
 constexpr int widthShiftBias = 23;
-constexpr int minWidthShift = -23;
-constexpr int maxWidthShift = 8;
 
 struct PassChoice {
     int predictor = 0;
@@ -56,68 +56,10 @@ std::byte firstByte(Storage storage, int shift) {
     return static_cast<std::byte>(static_cast<int>(storage) | shift << storageBits);
 }
 
-std::size_t gridSamples(int cells) {
-    const auto side = static_cast<std::size_t>(cells) + 1;
-    return side * side;
-}
-
-std::size_t missingSamples(int coarseCells) {
-    return gridSamples(2 * coarseCells) - gridSamples(coarseCells);
-}
-
-// The position of a pass's first sample in the fine grid.
-struct PassLayout {
-    int firstRow;
-    int firstColumn;
-};
-
-constexpr std::array<PassLayout, passCount> passLayouts = {{{1, 1}, {1, 0}, {0, 1}}};
-
-// Returns the index in the fine grid of the first sample of a pass's row; the row's samples are every other
-// one.
-std::size_t rowStart(RefinementPass pass, int row, int coarseCells) {
-    const PassLayout layout = passLayouts[static_cast<std::size_t>(pass)];
-    return static_cast<std::size_t>((layout.firstRow + 2 * row) * (2 * coarseCells + 1) + layout.firstColumn);
-}
-
-// Computes widths from the exponent and two bits of the mantissa of the expected errors: their logarithms in
-// quarter octaves. Width 0 means that no error is expected.
-PLANET_CPU_CLONES void toWidths(std::span<const float> expected256, int widthShift,
-                                std::span<std::uint8_t> widths) {
-    constexpr int mantissaBits = 23;
-    constexpr int widthOf256 = (127 + 8) << 2;
-    const int shift = residualWidthOfOne - widthOf256 + widthShift;
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-        const auto bits = std::bit_cast<std::int32_t>(expected256[i]);
-        const int width = std::clamp((bits >> (mantissaBits - 2)) + shift, 1, residualWidthCount - 1);
-        widths[i] = static_cast<std::uint8_t>(bits == 0 ? 0 : width);
-    }
-}
-
 // The residuals and expected errors of one pass under one predictor.
 struct CodedPass {
     std::vector<std::int16_t> residuals;
     std::vector<float> expected256;
-};
-
-// Memory for one row of a pass.
-class RowBuffers {
-public:
-    explicit RowBuffers(int columns) : columns_(static_cast<std::size_t>(columns)) {}
-
-    std::span<std::int16_t> predicted() { return std::span(predicted_).first(columns_); }
-    std::span<float> expected256() { return std::span(expected256_).first(columns_); }
-    std::span<std::uint8_t> widths() { return std::span(widths_).first(columns_); }
-    std::span<std::int16_t> residuals() { return std::span(residuals_).first(columns_); }
-    std::span<std::int16_t> samples() { return std::span(samples_).first(columns_); }
-
-private:
-    std::size_t columns_;
-    std::array<std::int16_t, maxCoarseCells + 1> predicted_;
-    std::array<float, maxCoarseCells + 1> expected256_;
-    std::array<std::uint8_t, maxCoarseCells + 1> widths_;
-    std::array<std::int16_t, maxCoarseCells + 1> residuals_;
-    std::array<std::int16_t, maxCoarseCells + 1> samples_;
 };
 
 // Runs the predictor over a pass of known samples.
@@ -164,7 +106,7 @@ struct CostSamples {
 
     // Returns the cost with a width shift, in 1/256 bit.
     std::int64_t cost(int widthShift) {
-        toWidths(coded.expected256, widthShift, widths);
+        residualWidths(coded.expected256, widthShift, widths);
         return residualsCost(coded.residuals, widths);
     }
 };
@@ -226,7 +168,7 @@ ChosenPass choosePass(RefinementPredictor& predictor, RefinementPass pass, std::
 
 void addPass(const CodedPass& coded, std::size_t columns, int widthShift, ResidualEncoder& encoder) {
     std::vector<std::uint8_t> widths(coded.residuals.size());
-    toWidths(coded.expected256, widthShift, widths);
+    residualWidths(coded.expected256, widthShift, widths);
     for (std::size_t i = 0; i < widths.size(); i += columns)
         encoder.addRow(std::span(coded.residuals).subspan(i, columns), std::span(widths).subspan(i, columns));
 }
@@ -298,7 +240,7 @@ bool decodePass(RefinementPredictor& predictor, RefinementPass pass, PassChoice 
     for (int y = 0; y < passRows(pass, coarseCells); ++y) {
         predictor.predictRow(y, predicted);
         predictor.expectErrors(y, row.expected256());
-        toWidths(row.expected256(), choice.widthShift, row.widths());
+        residualWidths(row.expected256(), choice.widthShift, row.widths());
         decoder.readRow(row.widths(), residuals);
         if (decoder.failed()) return false;
         std::int16_t* const out = fine.data() + rowStart(pass, y, coarseCells);
@@ -368,11 +310,29 @@ std::vector<std::int16_t> narrowed(const StepsView& steps, const Narrowing& narr
     return samples;
 }
 
+// Returns whether a storage is one of 16-bit samples.
+bool isNarrow(int storage) {
+    return storage == static_cast<int>(Storage::Plain) || storage == static_cast<int>(Storage::Entropy) ||
+           storage == static_cast<int>(Storage::Fitted) || storage == static_cast<int>(Storage::Level);
+}
+
+Result<void> decodeLevel(std::span<const std::byte> coded, std::span<const std::int16_t> coarse,
+                         std::span<std::int16_t> fine) {
+    if (!coded.empty())
+        return badInput(fmt::format("height block: {} bytes of level samples; expected 0", coded.size()));
+    if (!std::ranges::all_of(coarse, [&](std::int16_t sample) { return sample == coarse.front(); }))
+        return badInput("height block: its samples are level, but those of its parent are not");
+    std::ranges::fill(fine, coarse.front());
+    return {};
+}
+
 Result<void> decodeNarrow(Storage storage, std::span<const std::byte> coded,
                           std::span<const std::int16_t> coarse, int coarseCells,
                           std::span<std::int16_t> fine) {
+    if (storage == Storage::Level) return decodeLevel(coded, coarse, fine);
     copyCoarse(coarse, coarseCells, fine);
     if (storage == Storage::Plain) return decodePlain(coded, coarseCells, fine);
+    if (storage == Storage::Fitted) return decodeFitted(coded, coarse, coarseCells, fine);
     return decodeEntropy(coded, coarse, coarseCells, fine);
 }
 
@@ -473,7 +433,19 @@ void encodeNarrow(std::span<const std::int16_t> samples, int coarseCells, int co
                   std::vector<std::byte>& out) {
     const std::size_t before = out.size();
     if (compressionLevel > minCompressionLevel) {
+        if (std::ranges::all_of(samples, [&](std::int16_t sample) { return sample == samples.front(); })) {
+            out.push_back(firstByte(Storage::Level, shift));
+            return;
+        }
         encodeEntropy(samples, coarseCells, compressionLevel, shift, out);
+        if (compressionLevel == maxCompressionLevel && coarseCells >= minFittedCells) {
+            std::vector<std::byte> fitted = {firstByte(Storage::Fitted, shift)};
+            encodeFitted(samples, coarseCells, fitted);
+            if (fitted.size() < out.size() - before) {
+                out.resize(before);
+                out.insert(out.end(), fitted.begin(), fitted.end());
+            }
+        }
         if (out.size() - before <= 1 + 2 * missingSamples(coarseCells)) return;
         out.resize(before);
     }
@@ -519,9 +491,9 @@ Result<Steps> decodeSplit(std::span<const std::byte> coded, const StepsView& coa
                                     reader.rest().size()));
     const auto high = reader.take(length);
     const int storage = std::to_integer<int>(high[0]);
-    if (storage > static_cast<int>(Storage::Entropy))
+    if (!isNarrow(storage))
         return badInput(
-            fmt::format("height block: unknown storage {} of high bits; expected [0, 1]", storage));
+            fmt::format("height block: unknown storage {} of high bits; expected 0, 1, 4 or 5", storage));
     const auto narrowing = narrowingOf(coarse, fractionBits);
     if (!narrowing) return badInput("height block: the heights of its parent exceed 16 bits");
     std::vector<std::int16_t> samples(gridSamples(2 * coarseCells));
@@ -572,10 +544,9 @@ Result<Steps> decodeRefinement(std::span<const std::byte> coded, const StepsView
     const int storage = first & ((1 << storageBits) - 1);
     const bool isWide = storage == static_cast<int>(Storage::Wide);
     const bool isSplit = storage == static_cast<int>(Storage::Split);
-    const int mostStorage = fractionBits > 0 ? 3 : 1;
-    if (storage > mostStorage)
-        return badInput(
-            fmt::format("height block: unknown storage {}; expected [0, {}]", storage, mostStorage));
+    if (!isNarrow(storage) && !(fractionBits > 0 && (isWide || isSplit)))
+        return badInput(fmt::format("height block: unknown storage {}; expected {}", storage,
+                                    fractionBits > 0 ? "[0, 5]" : "0, 1, 4 or 5"));
     const int leastShift = isSplit ? fractionBits : 0;
     const int mostShift = isWide ? 0 : fractionBits;
     if (shift < leastShift || shift > mostShift)

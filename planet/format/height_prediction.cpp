@@ -173,7 +173,7 @@ std::int32_t bendsAround(const BorderedPlane& bendX, const BorderedPlane& bendY,
 BorderedPlane::BorderedPlane(int rowCount, int columnCount)
     : rows(rowCount),
       columns(columnCount),
-      cells(static_cast<std::size_t>((rowCount + 2) * (columnCount + 2))) {}
+      cells(static_cast<std::size_t>((rowCount + 2 * border) * (columnCount + 2 * border) + slack)) {}
 
 RefinementPredictor::RefinementPredictor(int coarseCells)
     : cells_(coarseCells),

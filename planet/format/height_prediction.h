@@ -32,15 +32,22 @@ int passColumns(RefinementPass pass, int coarseCells);
 // The number of predictors of a pass.
 inline constexpr int refinementPredictorCount = 8;
 
-// A plane of integers with a border of one cell on every side: rows and columns start at -1.
+// A plane of integers with a border of two cells on every side: rows and columns start at -2.
 struct BorderedPlane {
+    static constexpr int border = 2;
+    // So many cells may be read behind the last row.
+    static constexpr int slack = 16;
+
     int rows = 0;  // without the border
     int columns = 0;
     std::vector<std::int32_t> cells;
 
     BorderedPlane(int rowCount, int columnCount);
-    std::int32_t* row(int y) { return cells.data() + (y + 1) * (columns + 2) + 1; }
-    const std::int32_t* row(int y) const { return cells.data() + (y + 1) * (columns + 2) + 1; }
+    std::int32_t* row(int y) { return cells.data() + startOf(y); }
+    const std::int32_t* row(int y) const { return cells.data() + startOf(y); }
+
+private:
+    int startOf(int y) const { return (y + border) * (columns + 2 * border) + border; }
 };
 
 // Holds the known samples and errors of one block, for the encoder and the decoder.

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstdlib>
 
+#include "planet/base/cpu_clones.h"
 #include "planet/base/little_endian.h"
 
 namespace planet {
@@ -35,9 +36,8 @@ constexpr int wordBits = 32;
 constexpr int stateBytes = 8;
 constexpr int wordBytes = 4;
 
-// Half of the degrees of freedom of the distributions plus one half: 2 means 3 degrees, which fits ETOPO5
-// best.
-constexpr int studentPower = 2;
+// Half of the degrees of freedom plus one half, of each shape: 3, 5, 9 and 29 degrees.
+constexpr std::array<int, residualShapeCount> studentPowers = {2, 3, 5, 15};
 
 constexpr std::size_t at(int index) {
     return static_cast<std::size_t>(index);
@@ -60,19 +60,19 @@ using Interval = ResidualDistribution::Interval;
 using Distribution = ResidualDistribution;
 
 // Returns the density of Student's t with 2p - 1 degrees of freedom, up to a factor: (1 + t^2 / (2p - 1))^-p.
-double studentDensity(double x, double width) {
+double studentDensity(double x, double width, int p) {
     const double t = x / width;
-    const double base = 1 + t * t / (2 * studentPower - 1);
+    const double base = 1 + t * t / (2 * p - 1);
     double power = 1;
-    for (int i = 0; i < studentPower; ++i) power *= base;
+    for (int i = 0; i < p; ++i) power *= base;
     return 1 / power;
 }
 
 // Returns the mass of [low, low + 1], by the midpoints of slices.
-double studentMass(double low, double width) {
+double studentMass(double low, double width, int p) {
     constexpr int slices = 8;
     double sum = 0;
-    for (int i = 0; i < slices; ++i) sum += studentDensity(low + (i + 0.5) / slices, width);
+    for (int i = 0; i < slices; ++i) sum += studentDensity(low + (i + 0.5) / slices, width, p);
     return sum / slices;
 }
 
@@ -112,11 +112,11 @@ struct Masses {
 };
 
 // Returns the masses; symbol s covers [s + lower, s + lower + 1) around zero.
-Masses massesOf(double width, double lower) {
+Masses massesOf(double width, double lower, int p) {
     Masses masses;
     for (int s = 0; s < escapeSymbol; ++s) {
         const double low = s - symbolOfZero + lower;
-        const double mass = studentMass(low, width);
+        const double mass = studentMass(low, width, p);
         masses.mass[at(s)] = mass;
         masses.total += mass;
         masses.meanMagnitude += mass * std::abs(low + 0.5);
@@ -127,26 +127,26 @@ Masses massesOf(double width, double lower) {
 
 // Returns the masses of the width with a given mean magnitude, found with a factor that shrinks whenever it
 // overshoots.
-Masses massesOfMean(double meanMagnitude, double lower) {
+Masses massesOfMean(double meanMagnitude, double lower, int p) {
     double width = meanMagnitude;
     double factor = 4;
-    Masses masses = massesOf(width, lower);
+    Masses masses = massesOf(width, lower, p);
     for (int step = 0; step < 16; ++step) {
         const bool wider = masses.meanMagnitude < meanMagnitude;
         width = wider ? width * factor : width / factor;
-        masses = massesOf(width, lower);
+        masses = massesOf(width, lower, p);
         const bool overshot = wider != (masses.meanMagnitude < meanMagnitude);
         if (overshot) factor = 1 + (factor - 1) * 0.4;
     }
     return masses;
 }
 
-Distribution makeDistribution(int index) {
+Distribution makeDistribution(int index, int p) {
     const bool shifted = index >= unshiftedWidths;
     // Shifted by b bits, symbol s stands for the residuals [s 2^b, (s + 1) 2^b); unshifted, for residual s
     // alone.
-    const Masses masses = shifted ? massesOfMean(expectedMagnitude(index - shiftedWidths), 0)
-                                  : massesOfMean(expectedMagnitude(index), -0.5);
+    const Masses masses = shifted ? massesOfMean(expectedMagnitude(index - shiftedWidths), 0, p)
+                                  : massesOfMean(expectedMagnitude(index), -0.5, p);
     const auto frequencies = toFrequencies(masses.mass, masses.total);
     Distribution distribution;
     std::uint32_t start = 0;
@@ -161,14 +161,32 @@ Distribution makeDistribution(int index) {
     return distribution;
 }
 
-const std::array<Distribution, distributionCount>& distributions() {
+using Distributions = std::array<Distribution, distributionCount>;
+
+template <int shape>
+const Distributions& distributionsOfShape() {
     static const auto made = [] {
-        std::array<Distribution, distributionCount> all;
-        for (int i = 0; i < distributionCount; ++i) all[at(i)] = makeDistribution(i);
+        Distributions all;
+        for (int i = 0; i < distributionCount; ++i) all[at(i)] = makeDistribution(i, studentPowers[shape]);
         return all;
     }();
     return made;
 }
+
+// The distributions of a shape are made when it is first used.
+const Distributions& distributions(int shape) {
+    switch (shape) {
+        case 0:
+            return distributionsOfShape<0>();
+        case 1:
+            return distributionsOfShape<1>();
+        case 2:
+            return distributionsOfShape<2>();
+        default:
+            return distributionsOfShape<3>();
+    }
+}
+static_assert(residualShapeCount == 4);
 
 struct WidthCode {
     int distribution;
@@ -214,11 +232,12 @@ CodedSymbols codedSymbolsOf(const Distribution& distribution) {
     return symbols;
 }
 
-// Says how the encoder codes residuals under any width.
+// Says how the encoder codes residuals of a shape under any width.
 class Coding {
 public:
-    Coding() {
-        for (std::size_t i = 0; i < symbols_.size(); ++i) symbols_[i] = codedSymbolsOf(distributions()[i]);
+    explicit Coding(int shape) {
+        for (std::size_t i = 0; i < symbols_.size(); ++i)
+            symbols_[i] = codedSymbolsOf(distributions(shape)[i]);
         for (int width = 0; width < residualWidthCount; ++width) {
             const WidthCode code = codeOfWidth(width);
             widths_[at(width)] = code;
@@ -257,9 +276,23 @@ private:
     std::array<std::array<std::int16_t, symbolCount>, residualWidthCount> costs256_;
 };
 
-const Coding& coding() {
-    static const Coding made;
+template <int shape>
+const Coding& codingOfShape() {
+    static const Coding made(shape);
     return made;
+}
+
+const Coding& coding(int shape) {
+    switch (shape) {
+        case 0:
+            return codingOfShape<0>();
+        case 1:
+            return codingOfShape<1>();
+        case 2:
+            return codingOfShape<2>();
+        default:
+            return codingOfShape<3>();
+    }
 }
 
 // Divides by a frequency with a multiplication: x / f is the high half of 2 x m, shifted right by s. With s the number
@@ -292,17 +325,32 @@ std::uint64_t dividedBy(const Reciprocal& reciprocal, std::uint64_t x) {
 
 }  // namespace
 
-std::int64_t residualsCost(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths) {
+std::int64_t residualsCost(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths,
+                           int shape) {
     assert(residuals.size() == widths.size());
-    const Coding& all = coding();
+    const Coding& all = coding(shape);
     std::int64_t cost256 = 0;
     for (std::size_t i = 0; i < residuals.size(); ++i) cost256 += all.cost256(widths[i], residuals[i]);
     return cost256;
 }
 
-void ResidualEncoder::addRow(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths) {
+// The exponent and two bits of the mantissa are a logarithm in quarter octaves.
+PLANET_CPU_CLONES void residualWidths(std::span<const float> expected256, int widthShift,
+                                      std::span<std::uint8_t> widths) {
+    constexpr int mantissaBits = 23;
+    constexpr int widthOf256 = (127 + 8) << 2;
+    const int shift = residualWidthOfOne - widthOf256 + widthShift;
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+        const auto bits = std::bit_cast<std::int32_t>(expected256[i]);
+        const int width = std::clamp((bits >> (mantissaBits - 2)) + shift, 1, residualWidthCount - 1);
+        widths[i] = static_cast<std::uint8_t>(bits == 0 ? 0 : width);
+    }
+}
+
+void ResidualEncoder::addRow(std::span<const std::int16_t> residuals, std::span<const std::uint8_t> widths,
+                             int shape) {
     assert(residuals.size() == widths.size());
-    const Coding& all = coding();
+    const Coding& all = coding(shape);
     const std::size_t before = tokens_.size();
     tokens_.resize(before + residuals.size());
     Token* const tokens = tokens_.data() + before;
@@ -311,7 +359,8 @@ void ResidualEncoder::addRow(std::span<const std::int16_t> residuals, std::span<
         const int mask = (1 << code.rawBitCount) - 1;
         tokens[i] = {code.symbol.interval.start, code.symbol.interval.frequency,
                      static_cast<std::uint16_t>(residuals[i] & mask),
-                     static_cast<std::uint8_t>(code.rawBitCount), static_cast<std::uint8_t>(i & 1)};
+                     static_cast<std::uint8_t>(code.rawBitCount),
+                     static_cast<std::uint8_t>(states_ == 2 ? i & 1 : 0)};
     }
 }
 
@@ -347,21 +396,22 @@ void ResidualEncoder::finish(std::vector<std::byte>& out) const {
     out.reserve(out.size() + 2 * stateBytes + wordCount * wordBytes);
     ByteWriter writer(out);
     writer.put(even);
-    writer.put(odd);
+    if (states_ == 2) writer.put(odd);
     for (std::size_t i = wordCount; i-- > 0;) writer.put(words[i]);
 }
 
-ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded)
-    : distributions_(distributions().data()),
-      next_(coded.data()),
+ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded, int states)
+    : next_(coded.data()),
       end_(coded.data() + coded.size()),
+      stateCount_(states),
       states_{stateMin, stateMin} {
-    if (coded.size() < 2 * stateBytes) {
+    const auto used = std::span(states_).first(static_cast<std::size_t>(states));
+    if (coded.size() < used.size_bytes()) {
         failed_ = true;
         next_ = end_;
         return;
     }
-    for (std::uint64_t& state : states_) {
+    for (std::uint64_t& state : used) {
         state = readLittleEndian<std::uint64_t>(next_);
         next_ += stateBytes;
         if (state < stateMin || state >= stateMin << wordBits) failed_ = true;
@@ -370,9 +420,10 @@ ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded)
 
 // Decodes one residual from the state. Words are read without checking for the end unless MayEnd.
 template <bool MayEnd>
-inline std::int16_t ResidualDecoder::readOne(std::uint64_t& state, int widthIndex) {
+inline std::int16_t ResidualDecoder::readOne(const ResidualDistribution* shape, std::uint64_t& state,
+                                             int widthIndex) {
     const WidthCode code = codeOfWidth(widthIndex);
-    const Distribution& distribution = distributions_[code.distribution];
+    const Distribution& distribution = shape[code.distribution];
     const std::uint64_t slot = state & (frequencyTotal - 1);
     const int symbol = distribution.symbolOfSlot[slot];
     const Interval interval = distribution.intervals[at(symbol)];
@@ -408,29 +459,35 @@ void ResidualDecoder::refillNearEnd(std::uint64_t& state) {
     next_ += wordBytes;
 }
 
-template <bool MayEnd>
-void ResidualDecoder::readRowAs(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals) {
+template <bool MayEnd, int stateCount>
+void ResidualDecoder::readRowAs(const ResidualDistribution* shape, std::span<const std::uint8_t> widths,
+                                std::span<std::int16_t> residuals) {
     const std::size_t count = residuals.size();
     std::uint64_t even = states_[0];
     std::uint64_t odd = states_[1];
     std::size_t i = 0;
     for (; i + 1 < count; i += 2) {
-        residuals[i] = readOne<MayEnd>(even, widths[i]);
-        residuals[i + 1] = readOne<MayEnd>(odd, widths[i + 1]);
+        residuals[i] = readOne<MayEnd>(shape, even, widths[i]);
+        residuals[i + 1] = readOne<MayEnd>(shape, stateCount == 2 ? odd : even, widths[i + 1]);
     }
-    if (i < count) residuals[i] = readOne<MayEnd>(even, widths[i]);
+    if (i < count) residuals[i] = readOne<MayEnd>(shape, even, widths[i]);
     states_[0] = even;
     states_[1] = odd;
 }
 
-void ResidualDecoder::readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals) {
+void ResidualDecoder::readRow(std::span<const std::uint8_t> widths, std::span<std::int16_t> residuals,
+                              int shape) {
     assert(residuals.size() == widths.size());
+    const ResidualDistribution* const ofShape = distributions(shape).data();
     // Each residual consumes at most one word, and one word is read ahead.
     const std::size_t mostBytes = (residuals.size() + 1) * wordBytes;
-    if (static_cast<std::size_t>(end_ - next_) >= mostBytes)
-        readRowAs<false>(widths, residuals);
+    const bool mayEnd = static_cast<std::size_t>(end_ - next_) < mostBytes;
+    if (stateCount_ == 2)
+        mayEnd ? readRowAs<true, 2>(ofShape, widths, residuals)
+               : readRowAs<false, 2>(ofShape, widths, residuals);
     else
-        readRowAs<true>(widths, residuals);
+        mayEnd ? readRowAs<true, 1>(ofShape, widths, residuals)
+               : readRowAs<false, 1>(ofShape, widths, residuals);
 }
 
 bool ResidualDecoder::ended() const {

@@ -78,9 +78,9 @@ void readBelow(Reading& reading, const ChunkData& parent) {
     std::vector<std::byte> coded;
     encodeRefinement(joined(children, cells), cells, defaultCompressionLevel,
                      reading.file.info().shape.fractionBits, coded);
-    std::uint64_t indexBytes = 1;
-    for (const ChunkData& child : children) indexBytes += child.children.exists() ? chunkEntryBytes : 0;
-    reading.rewrittenOtherwise += !areAt(reading, parent.children.offset + indexBytes, coded);
+    std::vector<std::byte> index;
+    putIndex(index, valueOf(reading.file.readEntries(parent.id, parent.children)), parent.children.offset);
+    reading.rewrittenOtherwise += !areAt(reading, parent.children.offset + index.size(), coded);
     for (const ChunkData& child : children) keep(reading, child);
     for (const ChunkData& child : children) readBelow(reading, child);
 }

@@ -216,9 +216,9 @@ TEST_F(FractionBake, aPlanetAroundLidarCostsHardlyMoreThanBothAlone) {
     RecordProperty("insetBytes", std::to_string(insetBytes));
     EXPECT_GT(lidarBytes, 300'000);
     EXPECT_LE(insetBytes, 1.1 * lidarBytes);
-    // The levels above cost as much as without fractions.
+    // The levels above cost as much as without fractions, but for longer numbers in the index.
     EXPECT_LE(bytesOfLevels(file, 0, planetLevel),
-              1.001 * bytesOfLevels(opened("coarse.chk"), 0, planetLevel));
+              1.002 * bytesOfLevels(opened("coarse.chk"), 0, planetLevel));
 }
 
 TEST_F(FractionBake, aPlanetOfMetresHasNoFractions) {

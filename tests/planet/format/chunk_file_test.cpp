@@ -76,16 +76,16 @@ TEST_F(ChunkFileTest, wrongMagicIsRefused) {
 
 TEST_F(ChunkFileTest, newerVersionSaysToUpdateTheProgramOrBakeAgain) {
     Bytes bytes = whole();
-    bytes[8] = std::byte{6};
-    EXPECT_NE(messageOf(bytes).find("version: 6 is not supported; expected 5: update"), std::string::npos);
+    bytes[8] = std::byte{7};
+    EXPECT_NE(messageOf(bytes).find("version: 7 is not supported; expected 6: update"), std::string::npos);
     EXPECT_NE(messageOf(bytes).find("bake the source again"), std::string::npos);
 }
 
 TEST_F(ChunkFileTest, olderVersionsSayToBakeAgain) {
     Bytes bytes = whole();
-    for (const std::uint8_t version : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}, std::uint8_t{4}}) {
+    for (std::uint8_t version = 1; version < chunkFileVersion; ++version) {
         bytes[8] = std::byte{version};
-        EXPECT_NE(messageOf(bytes).find("is not supported; expected 5: bake the source again"),
+        EXPECT_NE(messageOf(bytes).find("is not supported; expected 6: bake the source again"),
                   std::string::npos)
             << version;
     }

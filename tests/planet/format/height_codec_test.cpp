@@ -175,6 +175,18 @@ TEST(HeightCodec, FlatGroundAndSlopesCostAlmostNothing) {
     EXPECT_LT(bitsPerSample(squareOf(65, [](int x, int y) { return 40 * x - 12 * y; })), 0.1);
 }
 
+TEST(HeightCodec, LevelGroundTakesOneByte) {
+    for (int level = 1; level <= maxCompressionLevel; ++level)
+        EXPECT_EQ(encoded(squareOf(65, [](int, int) { return -4711; }), level).size(), 1u);
+}
+
+TEST(HeightCodec, LevelGroundUnderAParentThatIsNotLevelIsRefused) {
+    const Bytes level = encoded(squareOf(17, [](int, int) { return 5; }));
+    const auto samples = decoded(level, squareOf(17, smoothStep));
+    ASSERT_FALSE(samples);
+    EXPECT_THAT(samples.error().message, HasSubstr("those of its parent are not"));
+}
+
 TEST(HeightCodec, SmoothGroundCostsLittle) {
     EXPECT_LT(bitsPerSample(squareOf(65, smoothStep)), 1.0);
 }
@@ -221,7 +233,7 @@ TEST(HeightCodec, DecodeRejectsBytesLeftOver) {
 TEST(HeightCodec, DecodeRejectsUnknownStorage) {
     const Square fine = squareOf(17, smoothStep);
     Bytes bytes = encoded(fine);
-    for (const int storage : {2, 3, 255}) {
+    for (const int storage : {2, 3, 6, 7, 255}) {
         bytes[0] = static_cast<std::byte>(storage);
         const auto samples = decoded(bytes, fine);
         ASSERT_FALSE(samples);
@@ -249,7 +261,7 @@ TEST(HeightCodec, DecodeSurvivesNoiseAndIsAnErrorOrAGrid) {
         for (int trial = 0; trial < 500; ++trial) {
             Bytes bytes(random() % 6000);
             for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
-            if (!bytes.empty() && trial % 2) bytes[0] = std::byte{1};
+            if (!bytes.empty() && trial % 2) bytes[0] = trial % 4 == 1 ? std::byte{1} : std::byte{4};
             const auto samples = decoded(bytes, fine);
             if (!samples) {
                 EXPECT_THAT(samples.error().message, testing::StartsWith("height block: "));
@@ -465,12 +477,12 @@ TEST(HeightCodec, HostileShiftsAndStoragesAreRefused) {
     EXPECT_THAT(errorOfFine(bytes, ground, 1 | 31 << 3), HasSubstr("shift 31; expected [0, 6]"));
     EXPECT_THAT(errorOfFine(bytes, ground, 1 | 4 << 3),
                 HasSubstr("not all heights of its parent are multiples"));
-    EXPECT_THAT(errorOfFine(bytes, ground, 4), HasSubstr("unknown storage 4; expected [0, 3]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 6), HasSubstr("unknown storage 6; expected [0, 5]"));
     EXPECT_THAT(errorOfFine(bytes, ground, 3), HasSubstr("shift 0; expected [6, 6]"));
     EXPECT_THAT(errorOfFine(bytes, ground, 3 | 6 << 3), HasSubstr("bytes of high bits"));
     EXPECT_THAT(errorOfFine(bytes, ground, 2 | 1 << 3), HasSubstr("shift 1; expected [0, 0]"));
     EXPECT_THAT(errorOfFine(bytes, ground, 2), HasSubstr("bytes of plain samples"));
-    EXPECT_THAT(errorOfFine(bytes, ground, 2, 0), HasSubstr("unknown storage 2; expected [0, 1]"));
+    EXPECT_THAT(errorOfFine(bytes, ground, 2, 0), HasSubstr("unknown storage 2; expected 0, 1, 4 or 5"));
     EXPECT_THAT(errorOfFine(bytes, ground, 1 | 3 << 3, 0), HasSubstr("shift 3; expected [0, 0]"));
     const Square wide = wideGround();
     EXPECT_THAT(errorOfFine(encodedFine(wide), wide, 1), HasSubstr("exceed 16 bits"));

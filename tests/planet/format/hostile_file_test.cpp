@@ -86,16 +86,19 @@ BlockLocation addCircle(HostileFile& file, std::size_t indexBytes, const PutInde
     return first;
 }
 
-// Followed to the finest level they would be some 10^11 blocks.
-TEST(HostileFile, AnIndexThatGoesInCirclesIsRefusedInAReport) {
+// Each block says that all of its children's are the one before it. Followed from the roots they would be some 10^14
+// blocks. Heights cannot go in circles, because their blocks name only earlier ones.
+TEST(HostileFile, AnIndexThatNamesTheSameBlocksAgainAndAgainIsRefusedInAReport) {
     HostileFile file;
-    const BlockLocation first =
-        addCircle(file, largestIndexBytes, [](Bytes& content, const BlockLocation& other, std::uint64_t own) {
-            std::array<ChunkEntry, quadrantCount> entries;
-            entries.fill({1, 1, 0, 0, other});
-            putIndex(content, entries, own);
-        });
-    file.addRoots({1, 1, 0, 0, first});
+    BlockLocation last = file.add({std::byte{0}});
+    for (int level = 1; level < deepestLevelOf(file.info.shape); ++level) {
+        std::array<ChunkEntry, quadrantCount> entries;
+        entries.fill({1, 1, 0, 0, last});
+        Bytes content;
+        putIndex(content, entries, file.bytes.size());
+        last = file.add(content);
+    }
+    file.addRoots({1, 1, 0, 0, last});
     const auto chunks = opened(file.sealed());
     ASSERT_TRUE(chunks) << chunks.error().message;
     const auto report = reportFile(*chunks);
@@ -122,7 +125,8 @@ TEST(HostileFile, AnIndexOfColoursThatGoesInCirclesIsRefusedInAReport) {
 
 TEST(HostileFile, AnIndexOfBlocksTooSmallForOneIsRefused) {
     HostileFile file;
-    const BlockLocation small{chunkFileHeaderBytes, quadrantCount * chunkEntryBytes};
+    // One byte less than the shortest entry.
+    const BlockLocation small{chunkFileHeaderBytes, 1 + 16 + checksumBytes};
     Bytes content(200);
     content[0] = std::byte{0b1111};
     file.add(content);
