@@ -34,6 +34,12 @@ constexpr int distributionCount = unshiftedWidths + shiftedWidths;
 constexpr std::uint64_t stateMin = std::uint64_t{1} << 28;
 constexpr int wordBits = 32;
 constexpr int stateBytes = 8;
+// A coder with one state begins far below the range of states, which takes the fewest bytes: while its decoder has words
+// left, it is never below. The start is above all frequencies, so that a decoder which runs out of words, and whose state then
+// only shrinks, does not come to rest there. Its final state takes as few bytes as it can, but 5; their number follows from
+// that of all bytes, because words have 4.
+constexpr std::uint64_t loneStateStart = 4951;
+constexpr std::size_t leastLoneStateBytes = 5;
 constexpr int wordBytes = 4;
 
 // Half of the degrees of freedom plus one half, of each shape: 3, 5, 9 and 29 degrees.
@@ -383,7 +389,7 @@ void ResidualEncoder::finish(std::vector<std::byte>& out) const {
         const std::uint64_t quotient = dividedBy(dividers[frequency], coded);
         state = (quotient << frequencyBits) + (coded - quotient * frequency) + token.start;
     };
-    std::uint64_t even = stateMin;
+    std::uint64_t even = states_ == 2 ? stateMin : loneStateStart;
     std::uint64_t odd = stateMin;
     // Branches, which follow a pattern, let both states stay in registers.
     for (auto token = tokens_.rbegin(); token != tokens_.rend(); ++token) {
@@ -395,8 +401,13 @@ void ResidualEncoder::finish(std::vector<std::byte>& out) const {
     }
     out.reserve(out.size() + 2 * stateBytes + wordCount * wordBytes);
     ByteWriter writer(out);
-    writer.put(even);
-    if (states_ == 2) writer.put(odd);
+    if (states_ == 2) {
+        writer.put(even);
+        writer.put(odd);
+    } else {
+        for (std::size_t i = 0; i < leastLoneStateBytes || (i < stateBytes && even >> (8 * i) != 0); ++i)
+            writer.put(static_cast<std::uint8_t>(even >> (8 * i)));
+    }
     for (std::size_t i = wordCount; i-- > 0;) writer.put(words[i]);
 }
 
@@ -405,17 +416,25 @@ ResidualDecoder::ResidualDecoder(std::span<const std::byte> coded, int states)
       end_(coded.data() + coded.size()),
       stateCount_(states),
       states_{stateMin, stateMin} {
-    const auto used = std::span(states_).first(static_cast<std::size_t>(states));
-    if (coded.size() < used.size_bytes()) {
+    const std::size_t least = states == 2 ? 2 * stateBytes : leastLoneStateBytes;
+    if (coded.size() < least) {
         failed_ = true;
         next_ = end_;
         return;
     }
-    for (std::uint64_t& state : used) {
-        state = readLittleEndian<std::uint64_t>(next_);
-        next_ += stateBytes;
-        if (state < stateMin || state >= stateMin << wordBits) failed_ = true;
+    if (states == 2) {
+        for (std::uint64_t& state : states_) {
+            state = readLittleEndian<std::uint64_t>(next_);
+            next_ += stateBytes;
+            if (state < stateMin || state >= stateMin << wordBits) failed_ = true;
+        }
+        return;
     }
+    const std::size_t bytes = least + (coded.size() - least) % wordBytes;
+    states_[0] = 0;
+    for (std::size_t i = 0; i < bytes; ++i) states_[0] |= std::to_integer<std::uint64_t>(coded[i]) << (8 * i);
+    next_ += bytes;
+    if (states_[0] >= stateMin << wordBits || (states_[0] < stateMin && next_ != end_)) failed_ = true;
 }
 
 // Decodes one residual from the state. Words are read without checking for the end unless MayEnd.
@@ -451,6 +470,7 @@ inline std::int16_t ResidualDecoder::readOne(const ResidualDistribution* shape, 
 
 void ResidualDecoder::refillNearEnd(std::uint64_t& state) {
     if (end_ - next_ < wordBytes) {
+        if (stateCount_ == 1) return;  // its state began below the range
         failed_ = true;
         state = stateMin;
         return;
@@ -491,7 +511,8 @@ void ResidualDecoder::readRow(std::span<const std::uint8_t> widths, std::span<st
 }
 
 bool ResidualDecoder::ended() const {
-    return next_ == end_ && states_[0] == stateMin && states_[1] == stateMin;
+    const std::uint64_t start = stateCount_ == 2 ? stateMin : loneStateStart;
+    return next_ == end_ && states_[0] == start && states_[1] == stateMin;
 }
 
 }  // namespace planet

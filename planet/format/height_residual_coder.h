@@ -2,7 +2,7 @@
 // "Asymmetric numeral systems", arXiv:1311.2540) over a fixed family of distributions, with two interleaved
 // states.
 //
-// Small codes may have one state, which saves 8 bytes and is decoded more slowly.
+// Small codes may have one state, which saves about 12 bytes and is decoded more slowly.
 //
 // Only the residuals are coded. The distribution of each one follows from a width that both sides compute
 // from known data. A width step is a quarter octave of the expected |residual|. The distributions are

@@ -200,6 +200,20 @@ TEST(FittedBlock, SmallBlocksAreRefused) {
     EXPECT_THAT(result.error().message, HasSubstr("4 cells; expected at least 8"));
 }
 
+TEST(FittedBlock, BytesCutShortAnywhereAreRefused) {
+    const Square fine = test::earthWindow(2200, 500, 33);
+    const std::vector<std::int16_t> samples(fine.samples.begin(), fine.samples.end());
+    std::vector<std::byte> good;
+    encodeFitted(samples, 16, good);
+    std::vector<std::int16_t> coarse;
+    for (std::size_t y = 0; y < 33; y += 2)
+        for (std::size_t x = 0; x < 33; x += 2) coarse.push_back(samples[y * 33 + x]);
+    std::vector<std::int16_t> room(samples.size());
+    ASSERT_TRUE(decodeFitted(good, coarse, 16, room));
+    for (std::size_t size = 0; size < good.size(); ++size)
+        EXPECT_FALSE(decodeFitted(std::span(good).first(size), coarse, 16, room)) << size << " bytes";
+}
+
 TEST(FittedBlock, HostileBytesGiveAnErrorOrSamples) {
     std::mt19937 random(11);
     const Square fine = test::earthWindow(2200, 500, 33);

@@ -518,19 +518,49 @@ TEST(ResidualCoder, EveryWidthCodesEveryResidual) {
     Residuals residuals = {-32768, 32767, 0, 1, -1};
     for (int r = -300; r <= 300; ++r) residuals.push_back(static_cast<std::int16_t>(r));
     for (int r = lowest; r <= highestStep; r += 97) residuals.push_back(static_cast<std::int16_t>(r));
-    for (int width = 0; width < residualWidthCount; ++width) {
-        const std::vector<std::uint8_t> widths(residuals.size(), static_cast<std::uint8_t>(width));
-        ResidualEncoder encoder(residuals.size());
+    for (const int states : {1, 2}) {
+        for (int shape = 0; shape < residualShapeCount; ++shape) {
+            for (int width = 0; width < residualWidthCount; ++width) {
+                const std::vector<std::uint8_t> widths(residuals.size(), static_cast<std::uint8_t>(width));
+                ResidualEncoder encoder(residuals.size(), states);
+                encoder.addRow(residuals, widths, shape);
+                Bytes bytes;
+                encoder.finish(bytes);
+                ResidualDecoder decoder(bytes, states);
+                Residuals read(residuals.size());
+                decoder.readRow(widths, read, shape);
+                ASSERT_FALSE(decoder.failed());
+                EXPECT_TRUE(decoder.ended());
+                ASSERT_EQ(read, residuals) << "width " << width << ", shape " << shape;
+            }
+        }
+    }
+}
+
+TEST(ResidualCoder, RowsOfEveryLengthComeBackWithOneState) {
+    std::mt19937 random(17);
+    for (std::size_t count = 0; count < 200; ++count) {
+        Residuals residuals(count);
+        for (std::int16_t& residual : residuals) residual = static_cast<std::int16_t>(random() % 9 - 4);
+        const std::vector<std::uint8_t> widths(count, residualWidthOfOne + 3);
+        ResidualEncoder encoder(count, 1);
         encoder.addRow(residuals, widths);
         Bytes bytes;
         encoder.finish(bytes);
-        ResidualDecoder decoder(bytes);
-        Residuals read(residuals.size());
+        ResidualDecoder decoder(bytes, 1);
+        Residuals read(count);
         decoder.readRow(widths, read);
-        ASSERT_FALSE(decoder.failed());
+        EXPECT_FALSE(decoder.failed());
         EXPECT_TRUE(decoder.ended());
-        ASSERT_EQ(read, residuals) << "width " << width;
+        ASSERT_EQ(read, residuals) << count << " residuals";
     }
+}
+
+TEST(ResidualCoder, OneStateWithoutResidualsTakesFiveBytes) {
+    Bytes bytes;
+    ResidualEncoder(0, 1).finish(bytes);
+    EXPECT_EQ(bytes.size(), 5u);
+    EXPECT_TRUE(ResidualDecoder(bytes, 1).ended());
 }
 
 TEST(ResidualCoder, CostIsWhatTheBytesTake) {
