@@ -191,4 +191,31 @@ planet::Result<void> writeGrey16(int size, std::span<const std::uint16_t> grey,
     return {};
 }
 
+planet::Result<Grey16> readGrey16(const std::filesystem::path& file) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
+    if (!input) {
+        OIIO::geterror();  // discards the pending error
+        return planet::badInput(
+            fmt::format("{}: cannot be read as an image; expected a grey image of 16 bits", file.string()));
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    const bool isSigned = spec.format == OIIO::TypeDesc::INT16;
+    if (spec.nchannels != 1 || spec.depth > 1 || spec.width < 1 || spec.height < 1 ||
+        (!isSigned && spec.format != OIIO::TypeDesc::UINT16)) {
+        return planet::badInput(fmt::format("{}: {} channels of {}; expected one of 16 bits", file.string(),
+                                            spec.nchannels, spec.format.c_str()));
+    }
+    Grey16 grey{spec.width, spec.height, {}};
+    std::vector<std::uint16_t> stored(static_cast<std::size_t>(spec.width) *
+                                      static_cast<std::size_t>(spec.height));
+    if (!input->read_image(0, 0, 0, 1, spec.format, stored.data()))
+        return planet::badInput(
+            fmt::format("{}: is damaged: {}; expected a complete picture", file.string(), input->geterror()));
+    grey.samples.reserve(stored.size());
+    for (const std::uint16_t sample : stored)
+        grey.samples.push_back(isSigned ? static_cast<std::int32_t>(static_cast<std::int16_t>(sample))
+                                        : static_cast<std::int32_t>(sample));
+    return grey;
+}
+
 }  // namespace worldy

@@ -67,4 +67,12 @@ planet::Result<void> writeTexture(const Texture& texture, const std::filesystem:
 planet::Result<void> writeGrey16(int size, std::span<const std::uint16_t> grey,
                                  const std::filesystem::path& file);
 
+// A grey image of 16-bit samples as the file stores them, signed or not.
+struct Grey16 {
+    int width = 0;
+    int height = 0;
+    std::vector<std::int32_t> samples;  // width * height, row-major
+};
+planet::Result<Grey16> readGrey16(const std::filesystem::path& file);
+
 }  // namespace worldy

@@ -246,7 +246,7 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
         {"verify", "Verification on all threads against one",
          [&, largest] { return benchVerify(largest(), options); }},
         {"file_size", "File size against the finest heights alone",
-         [&, largest] { return benchFileSize(largest(), folder); }},
+         [&, largest] { return benchFileSize(largest(), options, folder); }},
         {"colours", "Load of colours against a plain loop",
          [&] {
              return benchColours(ownColourImage(options.source.empty() ? earthElevation() : options.source),

@@ -76,8 +76,10 @@ BenchRows benchBake(const planet::HeightSource& source, int faceSize, const Benc
                     const std::filesystem::path& folder);
 // (f) Measures verifying the heights of a file on all threads against one thread.
 BenchRows benchVerify(const BenchPlanet& planet, const BenchOptions& options);
-// (g) Compares the size of the file with all levels with other formats for the finest heights alone.
-BenchRows benchFileSize(const BenchPlanet& planet, const std::filesystem::path& folder);
+// (g) Compares the size of the file with all levels with other formats for the finest heights alone. Of the Earth that comes
+// with Worldy, it also codes four rasters on their own grids at each compression level, and decodes them on one core.
+BenchRows benchFileSize(const BenchPlanet& planet, const BenchOptions& options,
+                        const std::filesystem::path& folder);
 
 // (h) Measures paging in and uploading every colour tile with one loader against reading and unpacking the
 // same blocks in a loop, and the memory per tile. image empty: synthetic colours.

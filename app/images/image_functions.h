@@ -52,6 +52,7 @@ struct ImageFunctions {
     decltype(&worldy::readTexture) readTexture;
     decltype(&worldy::writeTexture) writeTexture;
     decltype(&worldy::writeGrey16) writeGrey16;
+    decltype(&worldy::readGrey16) readGrey16;
     decltype(&worldy::plotSweep) plotSweep;
     decltype(&worldy::drawSuggestPage) drawSuggestPage;
 };

@@ -25,6 +25,7 @@ extern "C" const Module worldyImageModule = {
         .readTexture = worldy::readTexture,
         .writeTexture = worldy::writeTexture,
         .writeGrey16 = worldy::writeGrey16,
+        .readGrey16 = worldy::readGrey16,
         .plotSweep = worldy::plotSweep,
         .drawSuggestPage = worldy::drawSuggestPage,
     }};

@@ -50,6 +50,10 @@ Result<void> writeGrey16(int size, std::span<const std::uint16_t> grey, const st
     return callIn(images(), &ImageFunctions::writeGrey16, size, grey, file);
 }
 
+Result<Grey16> readGrey16(const std::filesystem::path& file) {
+    return callIn(images(), &ImageFunctions::readGrey16, file);
+}
+
 Result<Picture> plotSweep(std::span<const SweepPoint> points, SweepCost cost, const std::string& title) {
     return callIn(images(), &ImageFunctions::plotSweep, points, cost, title);
 }

@@ -12,7 +12,7 @@ namespace planet {
 
 namespace {
 
-// What a fit weighs: for each sample of a pass the differences of its known samples from the first of them, and the
+// The input of a fit: for each sample of a pass the differences of its known samples from the first of them, and the
 // sample's own difference.
 struct FitSamples {
     std::size_t terms = 0;  // differences a sample
@@ -60,8 +60,7 @@ struct NormalEquations {
     double at(std::size_t row, std::size_t column) const { return matrix[row * size + column]; }
 };
 
-// Solves the equations from the unknown `from` on, whose number they have left, by Cholesky's decomposition. Nothing if the
-// matrix is not positive definite.
+// Solves the equations by Cholesky's decomposition. Returns nothing if the matrix is not positive definite.
 std::optional<std::vector<double>> solved(NormalEquations equations) {
     const std::size_t size = equations.size;
     auto& a = equations;

@@ -35,7 +35,7 @@ inline constexpr int refinementPredictorCount = 8;
 // A plane of integers with a border of two cells on every side: rows and columns start at -2.
 struct BorderedPlane {
     static constexpr int border = 2;
-    // So many cells may be read behind the last row.
+    // The number of cells that may be read behind the last row.
     static constexpr int slack = 16;
 
     int rows = 0;  // without the border

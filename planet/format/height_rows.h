@@ -1,4 +1,4 @@
-// Where the samples that a refinement adds lie in the fine grid, and memory for one row of them. Internal to the codec.
+// Places of the samples that a refinement adds in the fine grid, and memory for one row of them. Internal to the codec.
 #pragma once
 
 #include <array>
