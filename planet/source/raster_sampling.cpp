@@ -242,7 +242,7 @@ public:
         const std::int64_t column = position.firstColumn;
         const std::int64_t row = position.firstRow;
         if (position.columnStretch == 1 && position.rowStretch == 1) {
-            const float height = fourByFour(samples, position, column, row);
+            const float height = fourByFour(samples, position.column, position.row, column, row);
             if (!std::isnan(height)) return height;
         }
         columnWeights_.resize(static_cast<std::size_t>(tapCount(position.columnStretch)));
@@ -268,16 +268,13 @@ public:
         return std::isnan(heightWithin) ? filteredWithout(samples, column, row) : heightWithin;
     }
 
-private:
-    // Does the same as weighted() for four by four taps.
-    static float fourByFour(const RegionSamples& samples, const Position& position, std::int64_t column,
-                            std::int64_t row) {
-        const auto fraction = [](double at, std::int64_t first) {
-            return static_cast<float>(at - static_cast<double>(first)) - 1;
-        };
-        const Float4 across = catmullRomWeights(fraction(position.column, column));
-        const Float4 down = catmullRomWeights(fraction(position.row, row));
-        const float* const from = samples.at(column, row);
+    // Does the same for four by four taps from a column and a row on; NaN if a sample has no height.
+    PLANET_ALWAYS_INLINE static float fourByFour(const RegionSamples& samples, double column, double row,
+                                                 std::int64_t firstColumn, std::int64_t firstRow) {
+        const Float4 across =
+            catmullRomWeights(static_cast<float>(column - static_cast<double>(firstColumn)) - 1);
+        const Float4 down = catmullRomWeights(static_cast<float>(row - static_cast<double>(firstRow)) - 1);
+        const float* const from = samples.at(firstColumn, firstRow);
         const std::int64_t stride = samples.rect.columns;
         Float4 sum = down[0] * (across * loadFloat4(from));
         sum += down[1] * (across * loadFloat4(from + stride));
@@ -286,6 +283,7 @@ private:
         return sumOfLanes(sum);
     }
 
+private:
     // Sums the samples with their weights. load(from, j, i) returns four samples of row j from column i on.
     template <class Load>
     float weighted(const RegionSamples& samples, std::int64_t column, std::int64_t row,
@@ -343,23 +341,43 @@ Result<void> fillPositions(const RasterMosaic& mosaic, const GridReduction& redu
 
 // Returns the samples that four by four taps around the places without a height lie on; empty if there is none.
 GridRect tapsAround(const PlacesOnGrid& onGrid, std::span<const float> heights) {
-    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-    std::int64_t left = most;
-    std::int64_t top = most;
-    std::int64_t right = -most;
-    std::int64_t bottom = -most;
+    constexpr double most = std::numeric_limits<double>::infinity();
+    double left = most;
+    double top = most;
+    double right = -most;
+    double bottom = -most;
     for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
         if (!std::isnan(heights[onGrid.index[i]])) continue;
-        const std::int64_t column = firstTap(onGrid.column[i], 1);
-        const std::int64_t row = firstTap(onGrid.row[i], 1);
-        left = std::min(left, column);
-        top = std::min(top, row);
-        right = std::max(right, column);
-        bottom = std::max(bottom, row);
+        left = std::min(left, onGrid.column[i]);
+        top = std::min(top, onGrid.row[i]);
+        right = std::max(right, onGrid.column[i]);
+        bottom = std::max(bottom, onGrid.row[i]);
     }
     if (left == most) return {};
+    const GridRect first{firstTap(left, 1), firstTap(top, 1)};
     const int taps = tapCount(1);
-    return {left, top, right + taps - left, bottom + taps - top};
+    return {first.column, first.row, firstTap(right, 1) + taps - first.column,
+            firstTap(bottom, 1) + taps - first.row};
+}
+
+// Filters the places without a height from four by four samples, all of which lie in the region.
+PLANET_CPU_CLONES void filterUnstretched(const GridRect& bounds, const RegionSamples& samples,
+                                         const PlacesOnGrid& onGrid, std::span<float> heights) {
+    PositionFilter filter;
+    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
+        float& height = heights[onGrid.index[i]];
+        if (!std::isnan(height)) continue;
+        const double column = onGrid.column[i];
+        const double row = onGrid.row[i];
+        const GridCell nearest = nearestIn(bounds, column, row);
+        if (std::isnan(*samples.at(nearest.column, nearest.row))) continue;
+        const std::int64_t firstColumn = firstTap(column, 1);
+        const std::int64_t firstRow = firstTap(row, 1);
+        height = PositionFilter::fourByFour(samples, column, row, firstColumn, firstRow);
+        if (!std::isnan(height)) continue;
+        height = filter.filtered(
+            samples, {.column = column, .row = row, .firstColumn = firstColumn, .firstRow = firstRow});
+    }
 }
 
 // Does for places whose kernel covers four by four samples of the full resolution what fillPositions does.
@@ -367,18 +385,7 @@ Result<void> fillUnstretched(const RasterMosaic& mosaic, const PlacesOnGrid& onG
                              std::span<float> heights) {
     RegionSamples samples{taps, std::vector<float>(static_cast<std::size_t>(taps.columns * taps.rows))};
     TRY(mosaic.read({}, taps, samples.heights));
-    PositionFilter filter;
-    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
-        float& height = heights[onGrid.index[i]];
-        if (!std::isnan(height)) continue;
-        const double column = onGrid.column[i];
-        const double row = onGrid.row[i];
-        const GridCell nearest = nearestIn(mosaic.bounds(), column, row);
-        if (std::isnan(*samples.at(nearest.column, nearest.row))) continue;
-        height = filter.filtered(
-            samples,
-            {.column = column, .row = row, .firstColumn = firstTap(column, 1), .firstRow = firstTap(row, 1)});
-    }
+    filterUnstretched(mosaic.bounds(), samples, onGrid, heights);
     return {};
 }
 
@@ -434,7 +441,11 @@ Result<void> fillFrom(const RasterArea& area, const PiecePlaces& places, const P
                       std::span<float> heightsM) {
     const std::vector<SampleDensity> densities = densitiesFor(area, places, onGrid.index);
     // Most places of a grid that is finer than the raster's take this short way to the same heights.
-    if (densities.empty() && area.mosaic.period() == 0) {
+    const bool isStretched = std::ranges::any_of(densities, [&](const SampleDensity& density) {
+        return stretchOf(density.columnsPerRad, places.spacingRad()) > 1 ||
+               stretchOf(density.rowsPerRad, places.spacingRad()) > 1;
+    });
+    if (!isStretched && area.mosaic.period() == 0) {
         const GridRect taps = tapsAround(onGrid, heightsM);
         if (taps.columns == 0) return {};
         if (taps.columns * taps.rows <= mostRegionSamples)
