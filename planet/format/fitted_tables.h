@@ -3,8 +3,14 @@
 // The weights of a prediction are the mean of the best weights of many blocks, plus a sum of directions, each times a
 // coefficient that the encoder chooses for its block and pass. The directions are the principal components of the best
 // weights, in the metric in which a coefficient of 1 grows the expected square of the error by 1 %. So the first ones say
-// most, and most of the others are 0 in a block. An expected error has one of several sets of weights. All are fits over
-// parts of ETOPO5, over one degree of SRTM, and over ETOPO5 oversampled twice.
+// most, and most of the others are 0 in a block. An expected error has one of several sets of weights.
+//
+// tests/planet/format/train_fitted_tables.cpp trains all of them on parts of data/earth and data/regions, and prints
+// fitted_table_numbers.h. The blocks' weights are robust least squares. The sets of weights of errors are of maximum likelihood
+// over clusters of blocks. After a change of the terms in fitted_prediction.cpp, train them again:
+//
+//   cmake --build build --target train_fitted_tables
+//   build/train_fitted_tables | clang-format > planet/format/fitted_table_numbers.h
 #pragma once
 
 #include <cstdint>

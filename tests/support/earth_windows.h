@@ -19,10 +19,9 @@ struct Square {
     std::int32_t at(int x, int y) const { return samples[static_cast<std::size_t>(y * side + x)]; }
 };
 
-// The square with its corner at sample x, y of data/earth/elevation.tif: metres, 4320 x 2160. Throws where it
-// is not to be had.
-inline Square earthWindow(int x, int y, int side) {
-    const std::string path = std::string(WORLDY_SOURCE_DIR) + "/data/earth/elevation.tif";
+// The square with its corner at sample x, y of a raster of int16 metres in data/. Throws where it is not to be had.
+inline Square rasterWindow(const std::string& file, int x, int y, int side) {
+    const std::string path = std::string(WORLDY_SOURCE_DIR) + "/data/" + file;
     const auto image = OIIO::ImageInput::open(path);
     if (!image) throw std::runtime_error("cannot open " + path);
     const auto width = static_cast<std::size_t>(image->spec().width);
@@ -36,6 +35,11 @@ inline Square earthWindow(int x, int y, int side) {
             square.samples.push_back(
                 all.at(static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)));
     return square;
+}
+
+// The square with its corner at sample x, y of data/earth/elevation.tif: 4320 x 2160.
+inline Square earthWindow(int x, int y, int side) {
+    return rasterWindow("earth/elevation.tif", x, y, side);
 }
 
 // The square of side samples with its corner at x, y, taking every step-th.
