@@ -20,6 +20,7 @@
 #include "planet/bake/file_report.h"
 #include "planet/bake/quantise.h"
 #include "planet/format/chunk_file.h"
+#include "planet/format/chunk_file_format.h"
 #include "planet/planet.h"
 #include "planet/source/height_quanta.h"
 #include "planet/source/height_source.h"
@@ -200,6 +201,34 @@ double bytesOfLevels(const ChunkFile& file, int first, int last) {
     return bytes;
 }
 
+// Counts the bytes of blocks in two parts.
+struct PartBytes {
+    std::size_t index = 0;
+    std::size_t entries = 0;  // of the index
+    std::size_t heights = 0;  // with the checksums
+
+    void add(const ChunkFile& file, BlockLocation block, int chunks, bool mayHaveChildren) {
+        std::vector<std::byte> start(std::min<std::size_t>(block.size, largestIndexBytes));
+        ASSERT_TRUE(file.readBytes(block.offset, start));
+        const BlockIndex read = indexFrom(start, chunks, mayHaveChildren, block.offset).value();
+        index += read.bytes;
+        heights += block.size - read.bytes;
+        entries += static_cast<std::size_t>(
+            std::ranges::count_if(read.entries, [](const ChunkEntry& e) { return e.children.exists(); }));
+    }
+};
+
+// Returns the bytes of the blocks of the coarsest levels: [0, last].
+PartBytes partBytes(const ChunkFile& file, int last) {
+    PartBytes bytes;
+    const int deepest = deepestLevelOf(file.info().shape);
+    for (const BlockLocation& root : file.info().roots) bytes.add(file, root, 1, deepest > 0);
+    for (const auto& [id, chunk] : chunksOf(file))
+        if (chunk.children.exists() && id.level < last)
+            bytes.add(file, chunk.children, quadrantCount, id.level + 1 < deepest);
+    return bytes;
+}
+
 TEST_F(FractionBake, aPlanetAroundLidarCostsHardlyMoreThanBothAlone) {
     addLidar("lidar.tif", 15, 45, 500, centimetres);
     const HeightSource world = worldOf({"planet.tif", "lidar.tif"});
@@ -216,9 +245,16 @@ TEST_F(FractionBake, aPlanetAroundLidarCostsHardlyMoreThanBothAlone) {
     RecordProperty("insetBytes", std::to_string(insetBytes));
     EXPECT_GT(lidarBytes, 300'000);
     EXPECT_LE(insetBytes, 1.1 * lidarBytes);
-    // The levels above cost as much as without fractions, but for longer numbers in the index.
-    EXPECT_LE(bytesOfLevels(file, 0, planetLevel),
-              1.002 * bytesOfLevels(opened("coarse.chk"), 0, planetLevel));
+    const PartBytes whole = partBytes(file, planetLevel);
+    const PartBytes coarse = partBytes(opened("coarse.chk"), planetLevel);
+    EXPECT_EQ(static_cast<double>(whole.index + whole.heights), bytesOfLevels(file, 0, planetLevel));
+    // The levels above cost as much as without fractions, but for the corners of the roots in 32 bits instead of 16.
+    constexpr std::size_t cornerBytes = faceCount * 4 * (sizeof(std::int32_t) - sizeof(std::int16_t));
+    EXPECT_EQ(whole.heights, coarse.heights + cornerBytes);
+    // The index has larger numbers, of steps that are 32 times as fine.
+    EXPECT_EQ(report.shape.fractionBits, 5);
+    EXPECT_EQ(whole.entries, coarse.entries);
+    EXPECT_LE(static_cast<double>(whole.index), 1.03 * static_cast<double>(coarse.index));
 }
 
 TEST_F(FractionBake, aPlanetOfMetresHasNoFractions) {
