@@ -18,7 +18,6 @@
 #include "planet/base/parallel.h"
 #include "planet/base/stopwatch.h"
 #include "planet/base/try.h"
-#include "planet/format/chunk_file_format.h"
 
 namespace planet {
 
@@ -83,22 +82,15 @@ private:
 
     Result<void> search(std::vector<DeferredChunk>& chunks, int threads, const std::function<bool()>& goOn) {
         if (chunks.empty()) return {};
-        TRY_ASSIGN(const auto written, writtenSoFar(chunks[0].baked.entry.minStep));
+        TRY_ASSIGN(const auto written, openUnfinished(file_.path().string(), file_.size(), bake_.shape,
+                                                      chunks[0].baked.entry.minStep,
+                                                      [this](std::uint64_t offset, std::span<std::byte> out) {
+                                                          return file_.read(offset, out);
+                                                      }));
         const ReadChildren readChildren = [&](const ChunkData& parent) {
             return written.readChildren(parent.id, parent.children, parent.heights);
         };
         return searchTightMetrics(bake_, chunks, threads, readChildren, goOn);
-    }
-
-    // Opens the unfinished file, with a temporary header. anyStep: a step of the planet.
-    Result<ChunkFile> writtenSoFar(std::int32_t anyStep) {
-        ChunkFileInfo info;
-        info.shape = bake_.shape;
-        info.minStep = info.maxStep = anyStep;
-        TRY(file_.overwrite(0, headerBytes(info, file_.size())));
-        return ChunkFile::open(
-            file_.path().string(), file_.size(),
-            [this](std::uint64_t offset, std::span<std::byte> out) { return file_.read(offset, out); });
     }
 
     const BakeContext& bake_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "planet/base/little_endian.h"
@@ -51,6 +50,22 @@ Result<void> writeRoots(const BakeContext& bake, std::span<const DeferredChunk, 
         TRY(file.append(block));
     }
     return {};
+}
+
+Result<ChunkFile> openUnfinished(const std::string& name, std::uint64_t bytes, const PlanetShape& shape,
+                                 std::int32_t anyStep, const ReadAt& readBlocks) {
+    ChunkFileInfo info;
+    info.shape = shape;
+    info.minStep = info.maxStep = anyStep;
+    return ChunkFile::open(name, bytes,
+                           [header = headerBytes(info, bytes), readBlocks](
+                               std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
+                               if (offset >= header.size()) return readBlocks(offset, out);
+                               std::ranges::copy(
+                                   std::span(header).subspan(static_cast<std::size_t>(offset), out.size()),
+                                   out.begin());
+                               return {};
+                           });
 }
 
 Result<void> commitBake(const std::optional<SourceRecord>& record, AtomicFile& file, ChunkFileInfo& info) {

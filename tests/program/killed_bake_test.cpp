@@ -144,7 +144,8 @@ protected:
             EXPECT_THAT(names, ElementsAre("a.chk"));
         EXPECT_THAT(temporaryNamesIn(folder_ / "tmp"), IsEmpty());
         if (hasPart && part != new_) {
-            EXPECT_FALSE(planet::ChunkFile::open(part_));
+            EXPECT_FALSE(planet::ChunkFile::open(part_))
+                << part.size() << " of " << new_.size() << " bytes, " << sizeOf(part_) << " now";
         }
         if (isNew) putOldBack();
     }

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "planet/bake/bake_finish.h"
 #include "planet/bake/job/job_bytes.h"
 #include "planet/bake/job/unit_baking.h"
 #include "planet/bake/subtree_merging.h"
@@ -319,18 +320,11 @@ private:
 
     Result<void> search(std::vector<DeferredChunk>& chunks) {
         if (chunks.empty()) return {};
-        ChunkFileInfo info;
-        info.shape = join_.plan.bake.shape;
-        info.minStep = info.maxStep = chunks[0].baked.entry.minStep;
-        const auto header = headerBytes(info, end_);
-        // The header is not in the file yet.
-        const ReadAt read = [&](std::uint64_t offset, std::span<std::byte> out) -> Result<void> {
-            if (offset >= header.size()) return join_.output.read(offset, out);
-            std::ranges::copy(std::span(header).subspan(static_cast<std::size_t>(offset), out.size()),
-                              out.begin());
-            return {};
-        };
-        TRY_ASSIGN(const auto file, ChunkFile::open(join_.output.name(), end_, read));
+        TRY_ASSIGN(const auto file, openUnfinished(join_.output.name(), end_, join_.plan.bake.shape,
+                                                   chunks[0].baked.entry.minStep,
+                                                   [&](std::uint64_t offset, std::span<std::byte> out) {
+                                                       return join_.output.read(offset, out);
+                                                   }));
         const ReadChildren readChildren = [&](const ChunkData& parent) {
             return file.readChildren(parent.id, parent.children, parent.heights);
         };

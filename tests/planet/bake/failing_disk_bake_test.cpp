@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -275,6 +276,22 @@ TEST(FailingDiskSource, RawFacesAreReadWholeOrAreAnErrorThatNamesOne) {
     }
     EXPECT_GT(injected, 100);
     RecordProperty("raw_faults", injected);
+}
+
+// A bake that is killed leaves a file behind. It must not open as a chunk file, although the bake has read blocks of it.
+TEST_F(FailingDiskBake, nothingButTheLastWriteHasAHeader) {
+    std::vector<bool> writesHeader;
+    FileCalls calls = systemFileCalls();
+    calls.pwrite = [&](int descriptor, const void* from, std::size_t bytes, off_t offset) {
+        const auto* const begin = static_cast<const char*>(from);
+        writesHeader.push_back(offset == 0 &&
+                               std::any_of(begin, begin + bytes, [](char byte) { return byte != 0; }));
+        return ::pwrite(descriptor, from, bytes, offset);
+    };
+    ASSERT_TRUE(bakeTo(path_, calls));
+    ASSERT_GT(writesHeader.size(), 3u);
+    EXPECT_EQ(std::ranges::count(writesHeader, true), 1);
+    EXPECT_TRUE(writesHeader.back());
 }
 
 }  // namespace
