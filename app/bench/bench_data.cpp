@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <glm/trigonometric.hpp>
-#include <utility>
 
 #include "app/bench/bench_parts.h"
 #include "planet/bake/bake.h"

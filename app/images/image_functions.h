@@ -28,14 +28,14 @@
 
 namespace worldy {
 
-// Of worldy_rasters.so.
+// The functions that worldy_rasters.so exports.
 struct RasterFunctions {
     decltype(&planet::openHeightSource) openHeightSource;
     decltype(&planet::isGeoreferenced) isGeoreferenced;
     decltype(&planet::checkedVrt) checkedVrt;
 };
 
-// Of worldy_images.so.
+// The functions that worldy_images.so exports.
 struct ImageFunctions {
     decltype(&planet::ImageFile::open) openImageFile;
     planet::Result<void> (*readTile)(planet::ImageFile& file, int x, int y, std::span<std::byte> native);

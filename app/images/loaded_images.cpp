@@ -6,8 +6,9 @@
 namespace worldy {
 
 const planet::Result<const ImageFunctions*>& images() {
-    static const planet::Result<const ImageFunctions*> loaded = loadFunctions<ImageFunctions>(
-        "worldy_images.so", "worldyImageModule", "is built with Worldy and reads and writes images");
+    static const planet::Result<const ImageFunctions*> loaded =
+        loadFunctions<ImageFunctions>("worldy_images.so", "worldyImageModule",
+                                      "is built with Worldy and reads and writes images", WORLDY_VERSION);
     return loaded;
 }
 

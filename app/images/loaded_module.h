@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/base/module.h"
 #include "app/images/image_functions.h"
@@ -10,12 +11,14 @@ namespace worldy {
 
 // Returns the functions of a module. It is never closed, because open sources have functions of it. file: its name.
 // object: what it exports. purpose: for the Error, as in loadModule.
+// version: the program's.
 template <class Functions>
-planet::Result<const Functions*> loadFunctions(const char* file, const char* object, const char* purpose) {
+planet::Result<const Functions*> loadFunctions(const char* file, const char* object, const char* purpose,
+                                               std::string_view version) {
     const planet::Result<const void*> found = loadModule(file, object, purpose);
     if (!found) return tl::unexpected(found.error());
     const auto* const module = static_cast<const FunctionModule<Functions>*>(*found);
-    if (module->build != ModuleBuild{WORLDY_VERSION})
+    if (module->build != ModuleBuild{version})
         return tl::unexpected(otherBuild(file, std::string(module->build.version)));
     return &module->functions;
 }

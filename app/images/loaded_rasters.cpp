@@ -10,7 +10,7 @@ namespace {
 
 const planet::Result<const RasterFunctions*>& rasters() {
     static const planet::Result<const RasterFunctions*> loaded = loadFunctions<RasterFunctions>(
-        "worldy_rasters.so", "worldyRasterModule", "is built with Worldy and opens rasters");
+        "worldy_rasters.so", "worldyRasterModule", "is built with Worldy and opens rasters", WORLDY_VERSION);
     return loaded;
 }
 

@@ -15,9 +15,7 @@
 #include "planet/base/cpu_clones.h"
 #include "planet/base/try.h"
 #include "planet/source/height_filter.h"
-#include "planet/source/height_geographic.h"
 #include "planet/source/place_lattice.h"
-#include "planet/source/sample_tiles.h"
 
 namespace planet {
 

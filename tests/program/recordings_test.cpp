@@ -8,7 +8,7 @@ namespace worldy {
 namespace {
 
 // Made in the window at commit a9bae3a, before the files moved into folders. A bake is recognised by its content, so
-// this also fails when a bake is no longer byte-identical. When the chunk file became version 4 and 5, only the size and the
+// this also fails when a bake is no longer byte-identical. When the chunk file became version 4, 5 and 6, only the size and the
 // checksum of the file that the recordings name were replaced; their frames are those of commit a9bae3a.
 TEST(Recordings, replayExactlyOverAFreshBake) {
     const TemporaryFolder folder;

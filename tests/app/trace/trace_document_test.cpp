@@ -247,11 +247,11 @@ TEST_F(TraceDocuments, tracesAreKnownByTheirFirstBytes) {
 
 TEST(TraceHistorian, clockThatGoesBackOrIsNoNumberKeepsTheLastTime) {
     constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
-    constexpr double infinite = std::numeric_limits<double>::infinity();
+    constexpr double endless = std::numeric_limits<double>::infinity();
     planet::TraceState state;
     TraceHistorian historian;
     std::uint64_t frame = 0;
-    for (const double timeS : {-3.0, notANumber, -2.0, infinite, -infinite, -2.5, 1.0}) {
+    for (const double timeS : {-3.0, notANumber, -2.0, endless, -endless, -2.5, 1.0}) {
         state.add(planet::TraceFrameBegan{++frame, frame, timeS});
         state.add(planet::TraceFrameEnded{frame, 1, -1});
         historian.add(state);

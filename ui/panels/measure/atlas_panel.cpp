@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -458,7 +459,7 @@ void atlasWorstList(const AtlasView& atlas, AtlasPanelState& state, Commands& co
         placeCells(all.survey, viewpointOf(row));
     });
     using V = AtlasViewpoint;
-    auto fields = placeFields<V>(all.survey, [](const V& v) -> const V& { return v; });
+    auto fields = placeFields<V>(all.survey, std::identity());
     for (std::size_t i = 0; i < planet::atlasMeasureCount; ++i) {
         fields.push_back({planet::atlasMeasureTexts[i].key.data(), [i](const V& v) { return v.figures[i]; }});
     }
