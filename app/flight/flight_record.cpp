@@ -12,6 +12,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <new>
+#include <optional>
 #include <set>
 
 #include "app/base/utf8.h"
@@ -53,13 +54,8 @@ static_assert(badDataOutcome > static_cast<std::uint8_t>(planet::PagingOutcome::
 // Flags for the parts of a frame that differ from the frame before.
 constexpr int callsPart = 1, viewsPart = 2, drawnPart = 4, movesPart = 8, hashPart = 16;
 
-void putVarint(ByteWriter& out, std::uint64_t value) {
-    for (; value >= 0x80; value >>= 7) out.put(static_cast<std::uint8_t>(value | 0x80));
-    out.put(static_cast<std::uint8_t>(value));
-}
-
 void putText(ByteWriter& out, std::string_view text) {
-    putVarint(out, text.size());
+    out.putVariable(text.size());
     for (const char letter : text) out.put(letter);
 }
 
@@ -77,14 +73,14 @@ static_assert(normalsFace >= planet::faceCount && deepFace >= planet::faceCount)
 void putWithLevel(ByteWriter& out, unsigned invalidFace, const ChunkId& id) {
     out.put(static_cast<std::uint8_t>(invalidFace * 32 + static_cast<unsigned>(id.face)));
     out.put(id.level);
-    putVarint(out, id.x);
-    putVarint(out, id.y);
+    out.putVariable(id.x);
+    out.putVariable(id.y);
 }
 
 void putIdInByte(ByteWriter& out, const ChunkId& id) {
     out.put(static_cast<std::uint8_t>(static_cast<unsigned>(id.face) * 32 + id.level));
-    putVarint(out, id.x);
-    putVarint(out, id.y);
+    out.putVariable(id.x);
+    out.putVariable(id.y);
 }
 
 void putId(ByteWriter& out, const ChunkId& id) {
@@ -93,7 +89,7 @@ void putId(ByteWriter& out, const ChunkId& id) {
 }
 
 void putIds(ByteWriter& out, const std::vector<ChunkId>& ids) {
-    putVarint(out, ids.size());
+    out.putVariable(ids.size());
     for (const ChunkId& id : ids) putId(out, id);
 }
 
@@ -106,14 +102,14 @@ void putBlock(ByteWriter& out, const BlockId& block) {
 }
 
 void putBlocks(ByteWriter& out, const std::vector<BlockId>& blocks) {
-    putVarint(out, blocks.size());
+    out.putVariable(blocks.size());
     for (const BlockId& block : blocks) putBlock(out, block);
 }
 
 void putMoves(ByteWriter& out, const PagingMoves& moves) {
     out.put(static_cast<std::uint8_t>(moves.gaveUp));
     putBlocks(out, moves.taken);
-    putVarint(out, moves.arrived.size());
+    out.putVariable(moves.arrived.size());
     for (const PagingMoves::Arrival& arrival : moves.arrived) {
         out.put(arrival.badData ? badDataOutcome : static_cast<std::uint8_t>(arrival.outcome));
         putBlock(out, arrival.block);
@@ -129,8 +125,8 @@ void putView(ByteWriter& out, const planet::View& view) {
     for (const glm::dvec3& vector : {view.eyeM, view.right, view.up, view.back})
         for (int i = 0; i < 3; ++i) out.put(vector[i]);
     out.put(view.horizontalFovRad);
-    putVarint(out, static_cast<std::uint64_t>(view.widthPx));
-    putVarint(out, static_cast<std::uint64_t>(view.heightPx));
+    out.putVariable(static_cast<std::uint64_t>(view.widthPx));
+    out.putVariable(static_cast<std::uint64_t>(view.heightPx));
 }
 
 void putView(ByteWriter& out, const FlownView& flown) {
@@ -139,17 +135,17 @@ void putView(ByteWriter& out, const FlownView& flown) {
 }
 
 void putCalls(ByteWriter& out, const std::vector<CalledInFlight>& calls) {
-    putVarint(out, calls.size());
+    out.putVariable(calls.size());
     for (const CalledInFlight& called : calls) {
         out.put(static_cast<std::uint8_t>(called.call));
         if (called.call == FlightCall::Settings) {
             out.put(static_cast<std::uint8_t>(called.pagingPaused));
-            putVarint(out, called.settings.size());
+            out.putVariable(called.settings.size());
             for (const std::string& assignment : called.settings) putText(out, assignment);
         }
         if (called.call == FlightCall::RetryBlock) putBlock(out, called.block);
         if (called.call == FlightCall::Announce) {
-            putVarint(out, called.announced.size());
+            out.putVariable(called.announced.size());
             for (const planet::AnnouncedView& one : called.announced) {
                 putView(out, one.view);
                 out.put(one.inS);
@@ -191,14 +187,10 @@ public:
         return ok() ? in_.get<T>() : T{};
     }
     std::uint64_t varint() {
-        std::uint64_t value = 0;
-        for (int shift = 0; shift < 63; shift += 7) {
-            const auto byte = get<std::uint8_t>();
-            value |= std::uint64_t{byte & 0x7Fu} << shift;
-            if (byte < 0x80) return value;
-        }
-        fail("number too large");
-        return 0;
+        if (!ok()) return 0;
+        const std::optional<std::uint64_t> value = in_.getVariable();
+        if (!value) fail(atEnd() ? "truncated" : "number too large");
+        return value.value_or(0);
     }
     // Reads the number of elements that take at least bytesEach each.
     std::size_t count(std::size_t bytesEach) {

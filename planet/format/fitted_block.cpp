@@ -7,6 +7,7 @@
 
 #include "planet/format/fitted_pass.h"
 #include "planet/format/fitted_tables.h"
+#include "planet/format/height_pass_decoding.h"
 
 namespace planet {
 
@@ -40,25 +41,8 @@ bool decodeFittedPass(FittedPredictor& predictor, RefinementPass pass, ResidualD
     predictor.beginPass(pass);
     predictor.setWeights(used);
     predictor.setErrorWeights(errorWeightSet(pass, parameters->errorSet));
-    RowBuffers row(passColumns(pass, coarseCells));
-    const std::span predicted = row.predicted();
-    const std::span residuals = row.residuals();
-    const std::span samples = row.samples();
-    for (int y = 0; y < passRows(pass, coarseCells); ++y) {
-        predictor.predictRow(y, predicted);
-        predictor.expectErrors(y, row.expected256());
-        residualWidths(row.expected256(), parameters->widthShift, row.widths());
-        decoder.readRow(row.widths(), residuals, parameters->shape);
-        if (decoder.failed()) return false;
-        std::int16_t* const out = fine.data() + rowStart(pass, y, coarseCells);
-        for (std::size_t x = 0; x < samples.size(); ++x) {
-            samples[x] = static_cast<std::int16_t>(predicted[x] + residuals[x]);
-            out[2 * x] = samples[x];
-        }
-        predictor.setErrors(y, residuals);
-        predictor.setSamples(y, samples);
-    }
-    return true;
+    return decodePassRows(predictor, pass, parameters->widthShift, parameters->shape, decoder, coarseCells,
+                          fine);
 }
 
 }  // namespace

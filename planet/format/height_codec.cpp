@@ -13,6 +13,7 @@
 #include "planet/base/little_endian.h"
 #include "planet/base/try.h"
 #include "planet/format/fitted_block.h"
+#include "planet/format/height_pass_decoding.h"
 #include "planet/format/height_prediction.h"
 #include "planet/format/height_residual_coder.h"
 #include "planet/format/height_rows.h"
@@ -232,26 +233,9 @@ Result<void> decodePlain(std::span<const std::byte> coded, int coarseCells, std:
 // Decodes one pass; returns false if the bytes end early.
 bool decodePass(RefinementPredictor& predictor, RefinementPass pass, PassChoice choice,
                 ResidualDecoder& decoder, int coarseCells, std::span<std::int16_t> fine) {
-    RowBuffers row(passColumns(pass, coarseCells));
-    const std::span predicted = row.predicted();
-    const std::span residuals = row.residuals();
-    const std::span samples = row.samples();
     predictor.beginPass(pass, choice.predictor);
-    for (int y = 0; y < passRows(pass, coarseCells); ++y) {
-        predictor.predictRow(y, predicted);
-        predictor.expectErrors(y, row.expected256());
-        residualWidths(row.expected256(), choice.widthShift, row.widths());
-        decoder.readRow(row.widths(), residuals);
-        if (decoder.failed()) return false;
-        std::int16_t* const out = fine.data() + rowStart(pass, y, coarseCells);
-        for (std::size_t x = 0; x < samples.size(); ++x) {
-            samples[x] = static_cast<std::int16_t>(predicted[x] + residuals[x]);
-            out[2 * x] = samples[x];
-        }
-        predictor.setErrors(y, residuals);
-        predictor.setSamples(y, samples);
-    }
-    return true;
+    return decodePassRows(predictor, pass, choice.widthShift, defaultResidualShape, decoder, coarseCells,
+                          fine);
 }
 
 Result<void> decodeEntropy(std::span<const std::byte> coded, std::span<const std::int16_t> coarse,
