@@ -136,11 +136,10 @@ void fillVoids(HeightSquare& square) {
         std::vector<std::int16_t> means;
         for (const auto& [x, y] : voids) means.push_back(meanAround(x, y));
         for (std::size_t i = 0; i < voids.size(); ++i) at(voids[i].first, voids[i].second) = means[i];
-        const auto left = std::ranges::remove_if(voids, [&](const std::pair<int, int>& place) {
+        const auto filled = std::erase_if(voids, [&](const std::pair<int, int>& place) {
             return at(place.first, place.second) != voidOfSrtm;
         });
-        if (left.begin() == voids.begin() && left.empty()) return;
-        voids.erase(left.begin(), left.end());
+        if (filled == 0) return;
     }
 }
 
