@@ -11,17 +11,19 @@
 #include <string_view>
 #include <system_error>
 
+#include "planet/raster/netcdf_copy.h"
+
 namespace planet {
 
 namespace {
 
 constexpr int gdalCacheBytes = 8 << 20;  // heights are cached after conversion
 
-// A VRT is opened only after a check of what it names.
+// A VRT is opened only after a check of what it names, and netCDF only in another process (netcdf_copy.h).
 constexpr std::array<const char*, 2> vrtOnly = {"VRT", nullptr};
-constexpr std::array<const char*, 15> formats = {"GTiff",  "SRTMHGT",     "DTED", "AAIGrid", "GRASSASCIIGrid",
-                                                 "netCDF", "JP2OpenJPEG", "ENVI", "EHdr",    "HFA",
-                                                 "BIL",    "USGSDEM",     "PNG",  "JPEG",    nullptr};
+constexpr std::array<const char*, 14> formats = {
+    "GTiff", "SRTMHGT", "DTED",    "AAIGrid", "GRASSASCIIGrid", "JP2OpenJPEG", "ENVI", "EHdr",
+    "HFA",   "BIL",     "USGSDEM", "PNG",     "JPEG",           nullptr};
 
 bool isListed(const char* driver) {
     const auto is = [&](const char* name) { return name && std::string_view(name) == driver; };
@@ -87,7 +89,7 @@ DataSet openDataSet(const std::string& name, bool isVrt) {
 }
 
 bool isGdalRaster(const std::filesystem::path& path) {
-    return isFileOf(formats.data(), path) || isFileOf(vrtOnly.data(), path);
+    return isNetcdf(path) || isFileOf(formats.data(), path) || isFileOf(vrtOnly.data(), path);
 }
 
 bool isVrtFile(const std::filesystem::path& path) {

@@ -1,5 +1,6 @@
 // The formats that GDAL reads for planets. Only those on a list are opened: none of them fetches anything from a network,
-// and a VRT may only name files beside it (vrt_file.h). The drivers of all other formats are removed from GDAL for the
+// and a VRT may only name files beside it (vrt_file.h). A copy of a netCDF file is opened instead of the file
+// (netcdf_copy.h). The drivers of all other formats are removed from GDAL for the
 // whole process. Internal to the library.
 #pragma once
 
@@ -32,7 +33,7 @@ struct QuietErrors {
     }
 };
 
-// Returns whether GDAL recognises a file as a raster in one of the formats on the list. The file may still be
+// Returns whether a file is netCDF, or GDAL recognises it as a raster in one of the formats on the list. The file may still be
 // unusable.
 bool isGdalRaster(const std::filesystem::path& path);
 // Returns whether GDAL recognises a file as a VRT.

@@ -20,21 +20,17 @@
 #include "planet/raster/gdal_formats.h"
 #include "planet/raster/geo_tags.h"
 #include "planet/raster/height_raster.h"
+#include "planet/raster/netcdf_copy.h"
+#include "planet/raster/raster_limits.h"
 #include "planet/raster/vrt_file.h"
 
 namespace planet {
 
 namespace {
 
-constexpr int mostRasterSide = 1 << 22;                // samples
 constexpr int leastBlockSide = 128;                    // samples; smaller blocks of a file are read together
 constexpr std::int64_t mostBlockSamples = 16LL << 20;  // a larger block could not be read in bounded memory
-// A survey reads every sample. More, in a header that lies, would keep it busy for hours.
-constexpr std::int64_t mostRasterSamples = std::int64_t{1} << 38;
-// No compression of real heights stores more samples in a byte. A file of so many samples is read for hours otherwise.
-constexpr std::int64_t mostSamplesPerByte = 10'000;
-constexpr std::int64_t alwaysRead = std::int64_t{1} << 32;  // samples
-constexpr std::size_t mostIdle = 64;                        // data sets
+constexpr std::size_t mostIdle = 64;                   // data sets
 
 struct SpatialReferenceReleaser {
     void operator()(OGRSpatialReferenceH reference) const { OSRRelease(reference); }
@@ -181,8 +177,18 @@ void setDatum(OGRSpatialReferenceH reference, RasterLayout& layout) {
     if (layout.verticalName.find("llipsoid") != std::string::npos) layout.datum = VerticalDatum::Ellipsoid;
 }
 
+// Returns the reference system that a copy of a netCDF file keeps as text; null for any other data set.
+SpatialReference ownReferenceSystem(GDALDatasetH dataSet) {
+    const std::string text = netcdfReferenceSystem(dataSet);
+    if (text.empty()) return nullptr;
+    SpatialReference system(OSRNewSpatialReference(text.c_str()));
+    if (system) OSRSetAxisMappingStrategy(system.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    return system;
+}
+
 Result<void> setReferenceSystem(const std::string& file, GDALDatasetH dataSet, RasterLayout& layout) {
-    const OGRSpatialReferenceH found = GDALGetSpatialRef(dataSet);
+    const SpatialReference own = ownReferenceSystem(dataSet);
+    const OGRSpatialReferenceH found = own ? own.get() : GDALGetSpatialRef(dataSet);
     if (!found || OSRIsLocal(found) != 0) {
         return badInput(
             fmt::format("{}: has no coordinate reference system; expected one in the file or in a .prj file "
@@ -244,7 +250,7 @@ Result<void> checkSampleCount(const std::string& file, GDALDatasetH dataSet, GDA
     const std::int64_t samples = std::int64_t{layout.width} * layout.height;
     if (samples <= alwaysRead) return {};
     const std::int64_t bytes = fileBytesOf(dataSet);
-    const std::int64_t most = std::max(alwaysRead, bytes * mostSamplesPerByte);
+    const std::int64_t most = mostSamplesIn(bytes);
     if (samples <= most) return {};
     double storedPercent = 100;
     if (layout.conversion.noDataValue)
@@ -329,11 +335,16 @@ Result<std::shared_ptr<const GdalRaster>> GdalRaster::open(const std::filesystem
     const QuietErrors quiet;
     const std::shared_ptr<GdalRaster> raster(new GdalRaster);
     raster->path_ = path;
-    raster->isVrt_ = isVrtFile(path);
     raster->gdalName_ = path.string();
-    if (raster->isVrt_) {
+    if (isNetcdf(path)) {
+        TRY_ASSIGN(auto copy, copyOfNetcdf(path, settings.stop));
+        raster->gdalName_ = copy->name;
+        raster->copies_.push_back(std::move(copy));
+    } else if (isVrtFile(path)) {
         TRY_ASSIGN(auto vrt, checkedVrt(path));
+        raster->isVrt_ = true;
         raster->gdalName_ = std::move(vrt.xml);
+        raster->copies_ = std::move(vrt.copies);
     }
     DataSet dataSet = openDataSet(raster->gdalName_, raster->isVrt_);
     if (!dataSet) {

@@ -14,6 +14,8 @@
 
 namespace planet {
 
+struct NetcdfCopy;
+
 // A raster that GDAL reads. Each thread that reads borrows a data set of its own. At most 64 idle data
 // sets of the whole process stay open, so that a mosaic of thousands of files does not use up the process's
 // file descriptors.
@@ -26,7 +28,8 @@ public:
                                                           const HeightSourceSettings& settings);
     ~GdalRaster() override;
 
-    // Returns the name that GDAL opens: the path or, for a VRT, its checked text (vrt_file.h).
+    // Returns the name that GDAL opens: the path, that of a copy (netcdf_copy.h) or, for a VRT, its checked text
+    // (vrt_file.h).
     const std::string& gdalName() const { return gdalName_; }
     bool isVrt() const { return isVrt_; }
     // Returns whether a mask or alpha can hide samples.
@@ -45,6 +48,7 @@ private:
     bool readVoids(void* dataSet, int x, int y, int width, int height, std::vector<std::uint8_t>& mask) const;
 
     std::string gdalName_;
+    std::vector<std::shared_ptr<const NetcdfCopy>> copies_;  // what gdalName_ names instead of netCDF files
     bool isVrt_ = false;
     bool hasMask_ = false;
     int alphaBand_ = 0;  // of a type that GDAL makes no mask of; 0: none

@@ -13,7 +13,6 @@
 
 #include "planet/base/open_file.h"
 #include "planet/base/try.h"
-#include "planet/raster/temporary_file.h"
 
 namespace planet {
 
@@ -52,8 +51,7 @@ bool toInt16(std::span<const float> heights, std::span<std::int16_t> out) {
 
 class SpilledRaster : public Raster {
 public:
-    SpilledRaster(std::shared_ptr<const Raster> raster, std::shared_ptr<const OpenFile> file)
-        : raster_(std::move(raster)), file_(std::move(file)) {
+    explicit SpilledRaster(std::shared_ptr<const Raster> raster) : raster_(std::move(raster)) {
         path_ = raster_->path();
         layout_ = raster_->layout();
         bandRows_ = layout_.blockHeight;
@@ -65,16 +63,22 @@ public:
         bands_ = std::vector<Band>(static_cast<std::size_t>((layout_.height + bandRows_ - 1) / bandRows_));
     }
 
+    // Must succeed before a block is read.
+    Result<void> takeRoom(TemporarySpace& space) {
+        TRY_ASSIGN(room_, space.take(isInt16_.size() * slotBytes()));
+        return {};
+    }
+
     Result<std::vector<float>> readBlock(int blockX, int blockY) const override {
         TRY(spillBand(blockY * layout_.blockHeight / bandRows_));
         const Piece piece = pieceAt(blockX, blockY);
         std::vector<float> heights(piece.samples());
         if (isInt16_[piece.number] == 0) {
-            TRY(file_->read(piece.offset, std::as_writable_bytes(std::span(heights))));
+            TRY(room_.file->read(piece.offset, std::as_writable_bytes(std::span(heights))));
             return heights;
         }
         std::vector<std::int16_t> stored(piece.samples());
-        TRY(file_->read(piece.offset, std::as_writable_bytes(std::span(stored))));
+        TRY(room_.file->read(piece.offset, std::as_writable_bytes(std::span(stored))));
         std::ranges::transform(stored, heights.begin(), [](std::int16_t height) {
             return height == missing16 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height);
         });
@@ -113,14 +117,18 @@ private:
         const int y = blockY * layout_.blockHeight;
         const auto number = static_cast<std::size_t>(blockY) * static_cast<std::size_t>(piecesAcross_) +
                             static_cast<std::size_t>(blockX);
-        const std::uint64_t slotBytes = sizeof(float) * static_cast<std::uint64_t>(layout_.blockWidth) *
-                                        static_cast<std::uint64_t>(layout_.blockHeight);
         return {number,
                 x,
                 y,
                 std::min(layout_.blockWidth, layout_.width - x),
                 std::min(layout_.blockHeight, layout_.height - y),
-                number * slotBytes};
+                room_.offset + number * slotBytes()};
+    }
+
+    // Returns the room of a piece, as floats.
+    std::uint64_t slotBytes() const {
+        return sizeof(float) * static_cast<std::uint64_t>(layout_.blockWidth) *
+               static_cast<std::uint64_t>(layout_.blockHeight);
     }
 
     Result<void> spillBand(int number) const {
@@ -153,12 +161,13 @@ private:
         }
         std::vector<std::int16_t> small(heights.size());
         isInt16_[piece.number] = toInt16(heights, small) ? 1 : 0;
-        return isInt16_[piece.number] != 0 ? file_->write(piece.offset, std::as_bytes(std::span(small)))
-                                           : file_->write(piece.offset, std::as_bytes(std::span(heights)));
+        return isInt16_[piece.number] != 0
+                   ? room_.file->write(piece.offset, std::as_bytes(std::span(small)))
+                   : room_.file->write(piece.offset, std::as_bytes(std::span(heights)));
     }
 
     std::shared_ptr<const Raster> raster_;
-    std::shared_ptr<const OpenFile> file_;
+    TemporarySpace::Room room_;
     int bandRows_ = 0;
     int piecesAcross_ = 0;
     mutable std::vector<Band> bands_;
@@ -169,14 +178,15 @@ private:
 }  // namespace
 
 Result<std::shared_ptr<const Raster>> inSmallBlocks(std::shared_ptr<const Raster> raster,
-                                                    std::size_t cacheBytes, const FileCalls& calls) {
+                                                    std::size_t cacheBytes, TemporarySpace& space) {
     const RasterLayout& layout = raster->layout();
     const std::uint64_t samples =
         static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height);
     const bool byRows = layout.blockWidth >= layout.width && layout.width > narrowEnough;
     if (!byRows || samples * sizeof(float) <= 2 * cacheBytes) return raster;
-    TRY_ASSIGN(auto file, createTemporaryFile(calls));
-    return std::make_shared<const SpilledRaster>(std::move(raster), std::move(file));
+    auto spilled = std::make_shared<SpilledRaster>(std::move(raster));
+    TRY(spilled->takeRoom(space));
+    return spilled;
 }
 
 }  // namespace planet

@@ -9,6 +9,8 @@
 #include <string>
 #include <system_error>
 
+#include "planet/base/try.h"
+
 namespace planet {
 
 Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& calls) {
@@ -21,10 +23,22 @@ Result<std::shared_ptr<const OpenFile>> createTemporaryFile(const FileCalls& cal
     if (descriptor < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
         std::string named = (folder / "planet-heights-XXXXXX").string();
         descriptor = uninterrupted([&] { return ::mkostemp(named.data(), O_CLOEXEC); });
-        if (descriptor >= 0) calls.unlink(named.c_str());
+        if (descriptor >= 0 && calls.unlink(named.c_str()) != 0) {
+            const std::string why = lastSystemError();
+            calls.close(descriptor);
+            return ioError(fmt::format("{}: cannot be removed: {}", named, why));
+        }
     }
     if (descriptor < 0) return ioError(fmt::format("{}: cannot be created: {}", name, lastSystemError()));
     return std::make_shared<const OpenFile>(descriptor, name, calls);
+}
+
+Result<TemporarySpace::Room> TemporarySpace::take(std::uint64_t bytes) {
+    const std::lock_guard lock(mutex_);
+    if (!file_) {
+        TRY_ASSIGN(file_, createTemporaryFile(calls_));
+    }
+    return Room{file_, std::exchange(taken_, taken_ + bytes)};
 }
 
 }  // namespace planet

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 #include <memory>
-#include <set>
+#include <ranges>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -106,7 +107,11 @@ public:
         return element->name.ends_with("Source") ? checkSource(node) : Result<void>();
     }
 
-    std::vector<std::filesystem::path> takeSources() const { return {sources_.begin(), sources_.end()}; }
+    std::vector<std::filesystem::path> takeSources() const {
+        const auto paths = std::views::keys(names_);
+        return {paths.begin(), paths.end()};
+    }
+    std::vector<std::shared_ptr<const NetcdfCopy>> takeCopies() { return std::move(copies_); }
 
 private:
     Result<void> checkSource(CPLXMLNode& source) {
@@ -119,18 +124,19 @@ private:
             return badInput(
                 fmt::format("{}: a source has {} elements SourceFilename; expected one", file_, names));
         }
-        TRY_ASSIGN(const auto found, sourceNamed(CPLGetXMLValue(&source, "SourceFilename", "")));
+        TRY_ASSIGN(const std::string opened, sourceNamed(CPLGetXMLValue(&source, "SourceFilename", "")));
         CPLXMLNode* const name = CPLGetXMLNode(&source, "SourceFilename");
         for (CPLXMLNode* child = name->psChild; child; child = child->psNext) {
             const bool isRelative =
                 child->eType == CXT_Attribute && std::string_view(child->pszValue) != "shared";
             if (isRelative) CPLSetXMLValue(child, "", "0");
         }
-        CPLSetXMLValue(&source, "SourceFilename", found.c_str());
+        CPLSetXMLValue(&source, "SourceFilename", opened.c_str());
         return {};
     }
 
-    Result<std::filesystem::path> sourceNamed(const std::string& name) {
+    // Returns the name that GDAL opens for a source.
+    Result<std::string> sourceNamed(const std::string& name) {
         const auto refused = [&](std::string_view why) {
             return badInput(fmt::format("{}: its source \"{}\" {}; expected a raster file in {} or below it",
                                         file_, name, why, folder_.string()));
@@ -140,16 +146,22 @@ private:
         if (problem || !std::filesystem::is_regular_file(found, problem)) return refused("is no file");
         if (!found.string().starts_with((folder_ / "").string()))
             return refused("lies outside of the VRT's folder");
-        if (sources_.contains(found)) return found;
+        if (const auto known = names_.find(found); known != names_.end()) return known->second;
         if (isVrtFile(found)) return refused("is a VRT");
         if (!isGdalRaster(found)) return refused("is no raster in one of the formats that are read");
-        sources_.insert(found);
-        return found;
+        std::string opened = found.string();
+        if (isNetcdf(found)) {
+            TRY_ASSIGN(auto copy, copyOfNetcdf(found));
+            opened = copy->name;
+            copies_.push_back(std::move(copy));
+        }
+        return names_.emplace(found, std::move(opened)).first->second;
     }
 
     std::string file_;
     std::filesystem::path folder_;
-    std::set<std::filesystem::path> sources_;
+    std::map<std::filesystem::path, std::string> names_;  // of the sources, and what GDAL opens for each
+    std::vector<std::shared_ptr<const NetcdfCopy>> copies_;
     std::size_t count_ = 0;
 };
 
@@ -196,6 +208,7 @@ Result<VrtFile> checkedVrt(const std::filesystem::path& path) {
     vrt.xml = serialised;
     CPLFree(serialised);
     vrt.sources = check.takeSources();
+    vrt.copies = check.takeCopies();
     return vrt;
 }
 

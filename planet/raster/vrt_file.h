@@ -3,16 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "planet/base/result.h"
+#include "planet/raster/netcdf_copy.h"
 
 namespace planet {
 
 struct VrtFile {
-    std::string xml;                             // what GDAL opens, with the absolute paths of its sources
-    std::vector<std::filesystem::path> sources;  // each once
+    std::string xml;  // what GDAL opens, with the absolute paths of its sources or of their copies
+    std::vector<std::filesystem::path> sources;             // each once
+    std::vector<std::shared_ptr<const NetcdfCopy>> copies;  // what the text names instead of netCDF files
 };
 
 // Reads a VRT of at most 16 MiB and 2^20 sources. It may only have bands of SimpleSource and ComplexSource. Each source

@@ -120,17 +120,16 @@ Result<std::vector<OpenRaster>> openRasters(
     const HeightSourceSettings& settings, std::vector<BrokenFile>& broken) {
     std::vector<OpenRaster> rasters;
     std::set<std::string> known;
+    TemporarySpace space(settings.fileCalls);
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (settings.stop.stop_requested()) return cancelled();
-        const Result<std::shared_ptr<const Raster>> raster =
-            open(i).and_then([&](const std::shared_ptr<const Raster>& opened) {
-                return inSmallBlocks(opened, settings.cacheBytes, settings.fileCalls);
-            });
-        if (!raster) {
-            broken.push_back({i, raster.error()});
+        const Result<std::shared_ptr<const Raster>> opened = open(i);
+        if (!opened) {
+            broken.push_back({i, opened.error()});
             continue;
         }
-        const RasterLayout& layout = (*raster)->layout();
+        TRY_ASSIGN(const auto raster, inSmallBlocks(*opened, settings.cacheBytes, space));
+        const RasterLayout& layout = raster->layout();
         if (!known.contains(layout.crs)) {
             const auto placement = RasterPlacement::make(files[i].string(), {layout.x, layout.y, layout.crs});
             if (!placement) {
@@ -139,7 +138,7 @@ Result<std::vector<OpenRaster>> openRasters(
             }
             known.insert(layout.crs);
         }
-        rasters.push_back({*raster, i});
+        rasters.push_back({raster, i});
     }
     return rasters;
 }

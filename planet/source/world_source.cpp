@@ -481,6 +481,13 @@ private:
                         path.string(), source.missingCount));
     }
 
+    // Returns the settings of rasters, which share one cache.
+    HeightSourceSettings rasterSettings() const {
+        HeightSourceSettings settings = settings_;
+        settings.cacheBytes = cacheBytes_;
+        return settings;
+    }
+
     // Refuses a file that says that its heights have another datum than its layer, unless offset_m says how much they
     // differ.
     // Without datums, all files that say theirs must say the same.
@@ -561,7 +568,7 @@ private:
     }
 
     Result<void> addRasters(const WorldLayer& layer, const std::vector<std::filesystem::path>& files) {
-        TRY_ASSIGN(auto opened, openRasterAreas(files, settings_, cache_));
+        TRY_ASSIGN(auto opened, openRasterAreas(files, rasterSettings(), cache_));
         for (const RasterArea& area : opened.areas) {
             for (const RasterMosaic::Tile& tile : area.mosaic.tiles()) TRY(checkDatum(layer, *tile.raster));
         }
@@ -570,7 +577,7 @@ private:
     }
 
     Result<void> addPlaced(const WorldLayer& layer, const std::filesystem::path& file) {
-        HeightSourceSettings settings = settings_;
+        HeightSourceSettings settings = rasterSettings();
         settings.rawSize = layer.rawSize;
         settings.rawRows = layer.rawRows;
         settings.rawBigEndian = layer.rawBigEndian;

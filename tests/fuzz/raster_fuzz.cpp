@@ -39,11 +39,9 @@ private:
     int descriptor_;
 };
 
-// The readers of netCDF and of Erdas Imagine allocate whatever a header claims, up to 2 GB, although they do not fill it. That
-// would end the fuzzer at its limit of memory, which is for what this project allocates.
-bool allocatesWhatIsClaimed(std::string_view text) {
-    return text.starts_with("CDF") || text.find("\x89HDF") != std::string_view::npos ||
-           text.starts_with("EHFA_HEADER_TAG");
+// Another process reads netCDF, because its libraries crash on damaged files (planet/raster/netcdf_copy.h).
+bool isReadElsewhere(std::string_view text) {
+    return text.starts_with("CDF") || text.starts_with("\x89HDF");
 }
 
 bool isSmall(const RasterLayout& layout) {
@@ -65,7 +63,7 @@ void checkHeights(const RasterArea& area) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const FileInMemory file;
-    if (allocatesWhatIsClaimed(fuzz::textOf(data, size))) return 0;
+    if (isReadElsewhere(fuzz::textOf(data, size))) return 0;
     file.write(fuzz::bytesOf(data, size));
     const auto raster = GdalRaster::open(file.path(), {});
     if (!isRead(raster)) return 0;

@@ -297,7 +297,7 @@ void rasters(const fs::path& folder) {
     for (const auto& [driver, name, options] :
          {Seed{"GTiff", "rows.tif", nullptr}, Seed{"GTiff", "tiled.tif", deflate},
           Seed{"GTiff", "lzw.tif", lzw}, Seed{"AAIGrid", "grid.asc", nullptr},
-          Seed{"JP2OpenJPEG", "grid.jp2", nullptr}}) {
+          Seed{"JP2OpenJPEG", "grid.jp2", nullptr}, Seed{"HFA", "erdas.img", nullptr}}) {
         GDALClose(GDALCreateCopy(GDALGetDriverByName(driver), (folder / name).c_str(), made, FALSE, options,
                                  nullptr, nullptr));
     }

@@ -69,7 +69,8 @@ float fractionRowsAt(int column, int row) {
 }
 
 std::shared_ptr<const Raster> mustSpillRows(const std::shared_ptr<const Raster>& raster) {
-    auto spilled = inSmallBlocks(raster, 1);
+    TemporarySpace space(systemFileCalls());
+    auto spilled = inSmallBlocks(raster, 1, space);
     EXPECT_TRUE(spilled) << spilled.error().message;
     EXPECT_NE(*spilled, raster);
     return spilled.value();
@@ -132,9 +133,29 @@ TEST(SpilledRaster, readsEachBlockOnce) {
 
 TEST(SpilledRaster, rastersThatAreReadWellStayAsTheyAre) {
     const auto small = std::make_shared<const RowsRaster>(700, 300, 128, integerRowsAt);
-    EXPECT_EQ(inSmallBlocks(small, 700 * 300 * 2).value(), small);
+    TemporarySpace space(systemFileCalls());
+    EXPECT_EQ(inSmallBlocks(small, 700 * 300 * 2, space).value(), small);
     const auto narrow = std::make_shared<const RowsRaster>(512, 3000, 128, integerRowsAt);
-    EXPECT_EQ(inSmallBlocks(narrow, 1).value(), narrow);
+    EXPECT_EQ(inSmallBlocks(narrow, 1, space).value(), narrow);
+}
+
+TEST(SpilledRaster, rastersShareOneFile) {
+    int opened = 0;
+    FileCalls counting = systemFileCalls();
+    counting.open = [&, open = counting.open](const char* path, int flags, mode_t mode) {
+        ++opened;
+        return open(path, flags, mode);
+    };
+    TemporarySpace space(counting);
+    const auto integers = std::make_shared<RowsRaster>(700, 300, 128, integerRowsAt);
+    const auto fractions = std::make_shared<RowsRaster>(900, 500, 128, fractionRowsAt);
+    const auto first = inSmallBlocks(integers, 1, space).value();
+    const auto second = inSmallBlocks(fractions, 1, space).value();
+    for (int i = 0; i < 2; ++i) {
+        expectRowHeights(*first, integerRowsAt);
+        expectRowHeights(*second, fractionRowsAt);
+    }
+    EXPECT_EQ(opened, 1);
 }
 
 TEST(SpilledRaster, emptyBlocksStayEmpty) {
@@ -159,9 +180,9 @@ TEST(SpilledRaster, errorsNameTheFileOrTheFolder) {
         errno = ENOSPC;
         return -1;
     };
-    const auto onFullDisk =
-        inSmallBlocks(std::make_shared<RowsRaster>(700, 300, 128, integerRowsAt), 1, full);
-    EXPECT_THAT(onFullDisk.value()->readBlock(0, 0).error().message,
+    const auto rows = std::make_shared<RowsRaster>(700, 300, 128, integerRowsAt);
+    TemporarySpace onFullDisk(full);
+    EXPECT_THAT(inSmallBlocks(rows, 1, onFullDisk).value()->readBlock(0, 0).error().message,
                 AllOf(HasSubstr("temporary file in "), HasSubstr("No space left on device")));
 
     FileCalls refused = systemFileCalls();
@@ -169,9 +190,8 @@ TEST(SpilledRaster, errorsNameTheFileOrTheFolder) {
         errno = EACCES;
         return -1;
     };
-    EXPECT_THAT(
-        inSmallBlocks(std::make_shared<RowsRaster>(700, 300, 128, integerRowsAt), 1, refused).error().message,
-        HasSubstr("cannot be created"));
+    TemporarySpace nowhere(refused);
+    EXPECT_THAT(inSmallBlocks(rows, 1, nowhere).error().message, HasSubstr("cannot be created"));
 }
 
 }  // namespace

@@ -163,11 +163,11 @@ std::vector<Step> stepsOfCost() {
 TEST(Governor, settlesAfterLargeStepsAndTheWayBackStaysWithinTheBudget) {
     for (const double factor : {3.0, 5.0}) {
         for (auto& [name, plant, stepped, cost, budget] : stepsOfCost()) {
-            const auto cost_ = [&](const Plant& p) { return p.*cost; };
+            const auto costOf = [member = cost](const Plant& p) { return p.*member; };
             plant.run(8);
             ASSERT_LT(plant.*cost, budget) << name;
             plant.*stepped = factor;
-            const double upS = settledAfterS(plant, cost_, budget);
+            const double upS = settledAfterS(plant, costOf, budget);
             EXPECT_GT(upS, 0) << name << factor;
             EXPECT_LT(upS, 0.5) << name << factor;
             plant.run(6);
