@@ -68,9 +68,10 @@ public:
         posix_spawnattr_t attributes;
         ::posix_spawnattr_init(&attributes);
         ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-        const std::array<const char*, 4> arguments = {"sh", "-c", command.c_str(), nullptr};
-        const int problem = ::posix_spawn(&running.process_, "/bin/sh", &actions, &attributes,
-                                          const_cast<char* const*>(arguments.data()), environ);
+        std::array<std::string, 3> words = {"sh", "-c", command};
+        const std::array<char*, 4> arguments = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+        const int problem =
+            ::posix_spawn(&running.process_, "/bin/sh", &actions, &attributes, arguments.data(), environ);
         ::posix_spawnattr_destroy(&attributes);
         ::posix_spawn_file_actions_destroy(&actions);
         for (auto* pipe : {&running.output_, &running.errors_}) ::close(std::exchange((*pipe)[1], -1));

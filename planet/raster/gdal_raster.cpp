@@ -97,6 +97,16 @@ bool isInteger(SampleType type) {
     return type != SampleType::Float && type != SampleType::Double;
 }
 
+// Returns whether a sample of a type can have a value. GDAL returns 0 where a file stores nothing if its no-data value is
+// none of its type, such as -9999 of unsigned samples.
+bool canHold(SampleType type, std::optional<double> value) {
+    if (!value || !isInteger(type)) return true;
+    const auto bits = static_cast<int>(8 * bytesOf(type));
+    const bool isSigned = type == SampleType::Int8 || type == SampleType::Int16 || type == SampleType::Int32;
+    const double least = isSigned ? -std::ldexp(1.0, bits - 1) : 0;
+    return *value >= least && *value < least + std::ldexp(1.0, bits);
+}
+
 // Returns the bands of a picture in the order red, green and blue; one if it is grey or has a colour table. A file that
 // does not say what its bands are has them in that order.
 std::vector<int> colourBands(GDALDatasetH dataSet) {
@@ -302,6 +312,7 @@ Result<RasterLayout> rasterLayoutOf(const std::filesystem::path& path, GDALDatas
     SampleType type = SampleType::Float;
     if (settings.colourChannel) type = GDALGetRasterColorTable(band) ? SampleType::Uint8 : known->type;
     TRY_ASSIGN(layout.conversion, conversionFor(file, settings, type, bandTags(band)));
+    if (!canHold(known->type, layout.conversion.noDataValue)) layout.conversion.noDataValue.reset();
     layout.conversion.type = SampleType::Float;
     layout.conversion.fillM = std::numeric_limits<float>::quiet_NaN();
     TRY(checkSampleCount(file, dataSet, band, layout));

@@ -145,8 +145,8 @@ Result<std::shared_ptr<const NetcdfCopy>> makeCopy(const std::filesystem::path& 
     TRY_ASSIGN(auto file, createTemporaryFile(systemFileCalls()));
     TRY_ASSIGN(const Ending ending, runProgram(program.string(), path.string(), file->descriptor(), stop));
     TRY(checkEnding(path.string(), ending));
-    const std::string name = fmt::format("/proc/self/fd/{}", file->descriptor());
-    return std::make_shared<const NetcdfCopy>(std::move(file), name);
+    std::string name = fmt::format("/proc/self/fd/{}", file->descriptor());
+    return std::make_shared<const NetcdfCopy>(NetcdfCopy{std::move(file), std::move(name)});
 }
 
 // The copies that are in use, and the last one.

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <ranges>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -108,8 +107,9 @@ public:
     }
 
     std::vector<std::filesystem::path> takeSources() const {
-        const auto paths = std::views::keys(names_);
-        return {paths.begin(), paths.end()};
+        std::vector<std::filesystem::path> sources;
+        for (const auto& [source, opened] : names_) sources.push_back(source);
+        return sources;
     }
     std::vector<std::shared_ptr<const NetcdfCopy>> takeCopies() { return std::move(copies_); }
 

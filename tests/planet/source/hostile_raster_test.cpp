@@ -107,12 +107,13 @@ TEST_F(HostileRaster, DimensionsThatAFileCannotHoldAreRefused) {
 }
 
 // Creates a sparse file with blocks of 1024 x 1024 samples, of which one has a height of 500 m.
-void writeSparse(const std::filesystem::path& path, int width, int height, bool hasNoData) {
+void writeSparse(const std::filesystem::path& path, int width, int height, bool hasNoData,
+                 GDALDataType type = GDT_Int16) {
     GDALAllRegister();
     const std::vector<const char*> options = {"SPARSE_OK=TRUE",  "TILED=YES",   "BLOCKXSIZE=1024",
                                               "BLOCKYSIZE=1024", "BIGTIFF=YES", nullptr};
     const GDALDatasetH sparse = GDALCreate(GDALGetDriverByName("GTiff"), path.string().c_str(), width, height,
-                                           1, GDT_Int16, options.data());
+                                           1, type, options.data());
     ASSERT_TRUE(sparse);
     double transform[] = {10, 1e-4, 0, 45, 0, -1e-4};
     GDALSetGeoTransform(sparse, transform);
@@ -134,6 +135,16 @@ TEST_F(HostileRaster, EmptyBlocksAreNotRead) {
     EXPECT_FLOAT_EQ(sampledNear(source, test::finest, 45 - 0.25, 10 + 0.15), 500);
     EXPECT_EQ(sampledNear(source, test::finest, 45 - 0.25, 10 + 0.3), 0);
     EXPECT_LE(source.reads().read, 10u * 1024 * 1024);
+}
+
+// GDAL reads 0 where such a file stores nothing.
+TEST_F(HostileRaster, ANoDataValueThatSamplesCannotHaveMarksNone) {
+    constexpr int side = 1 << 13;
+    writeSparse(folder / "unsigned.tif", side, side, true, GDT_UInt16);
+    const HeightSource source = mustOpen(folder / "unsigned.tif");
+    EXPECT_EQ(source.missingCount, 0u);
+    EXPECT_EQ(source.minM, 0);
+    EXPECT_EQ(source.maxM, 500);
 }
 
 TEST_F(HostileRaster, MoreSamplesThanAFileCanHoldAreRefused) {
