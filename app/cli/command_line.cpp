@@ -162,6 +162,9 @@ void addShot(CLI::App& command, ShotOptions& options, ViewTexts& view) {
     addSettingOption(command, "--surface", defaultField("surface.colour"), view);
     command.add_option("--colour-image", options.colourImage,
                        "Colour image of the planet (colour.jpg beside FILE)");
+    command.add_option(
+        "--source", options.source,
+        "Source of FILE, such as a world file, for --colour-by source and the outlines of its layers");
     command.add_option("--shaders", options.shaderFolder, "Folder to read the shaders from");
 }
 

@@ -9,11 +9,13 @@
 #include "app/base/picture_file.h"
 #include "app/base/report.h"
 #include "app/base/text.h"
+#include "app/data/worlds.h"
 #include "app/scene/frame_report.h"
 #include "app/scene/offscreen.h"
 #include "app/settings/screenshot.h"
 #include "app/settings/settings_text.h"
 #include "app/settings/shot_line.h"
+#include "planet/source/height_source.h"
 
 namespace worldy {
 
@@ -31,7 +33,8 @@ Result<void> writeShot(const Picture& picture, const planet::CameraPose& pose, c
     settings.colourImage = options.colourImage.empty()
                                ? std::string()
                                : std::filesystem::absolute(options.colourImage, status).string();
-    const std::string line = shotLine(file, pose, options.size, options.view, settings.colourImage);
+    const std::string line =
+        shotLine(file, pose, options.size, options.view, settings.colourImage, options.source);
     return writeScreenshot(picture, options.output, {settingsText(settings), pose, file, line, {}});
 }
 
@@ -62,6 +65,23 @@ void printReport(const Offscreen& offscreen, const SettledView& view, const Shot
                stats.selection.worstDrawnBoundPx, bytesText(static_cast<double>(stats.paging.bytesRead())));
 }
 
+// Opens the source if the picture shows its layers. A picture that lacks what its settings ask for is drawn with a message.
+Result<std::shared_ptr<const planet::SourceLayers>> layersFor(const ShotOptions& options) {
+    if (options.view.overlay.colourBy == ColourBy::Atlas)
+        printMessage("worldy: only the window has an atlas, so the chunks are grey\n");
+    if (!showsSource(options.view.overlay)) return nullptr;
+    if (options.source.empty()) {
+        printMessage(
+            "worldy: no source is named, so its layers are not shown; expected --source with what {} was "
+            "baked from\n",
+            options.file.string());
+        return nullptr;
+    }
+    return sourceNamed(options.source, {})
+        .and_then([](const NamedSource& named) { return planet::openHeightSource(named.source, {}); })
+        .map([](const planet::HeightSource& source) { return source.layers; });
+}
+
 }  // namespace
 
 Result<void> takeShot(const ShotOptions& options) {
@@ -76,6 +96,10 @@ Result<void> takeShot(const ShotOptions& options) {
     if (!options.colourImage.empty()) {
         if (Result<void> read = readColourImage(offscreen->scene); !read) return read;
     }
+
+    Result<std::shared_ptr<const planet::SourceLayers>> layers = layersFor(options);
+    if (!layers) return tl::unexpected(layers.error());
+    offscreen->layers = *std::move(layers);
 
     const double radiusM = offscreen->scene.planet->tree().shape.radiusM;
     const SettledView view =

@@ -15,6 +15,7 @@ struct ShotOptions {
     std::filesystem::path output;
     std::filesystem::path shaderFolder;
     std::filesystem::path colourImage;  // empty: colour.jpg or colour.png beside the file, if it exists
+    std::filesystem::path source;       // of FILE, for settings that show its layers; empty: not known
     std::optional<planet::CameraPose> camera;
     planet::CameraPose start{.altitudeM = 0};  // used without a camera; altitude 0: the whole planet
     PictureSize size;

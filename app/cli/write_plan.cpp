@@ -192,6 +192,7 @@ CommandFiles filesOf(const ShotOptions& options) {
     CommandFiles files;
     addChunkFile(files, options.file);
     files.inputs.insert(files.inputs.end(), {options.colourImage, options.shaderFolder});
+    addSource(files, options.source);
     addLayerFiles(files, options.view);
     files.outputs = {{options.output, OutputKind::Picture}};
     return files;

@@ -18,13 +18,6 @@ namespace {
 constexpr std::size_t mostAskedChunks = 64;  // in a job
 constexpr std::size_t mostTops = 1'000'000;  // chunks whose topmost layer is kept
 
-planet::Geographic placeInMiddleOf(const planet::ChunkId& chunk) {
-    const planet::FaceSquare square = planet::faceSquareOf(chunk);
-    const double half = square.side / 2;
-    return planet::geographicFromDirection(
-        planet::sphereFromCube(planet::cubePoint(chunk.face, square.u + half, square.v + half)));
-}
-
 void changeEdit(LayerEditing& editing, WorldEdit edit) {
     editing.edit = std::move(edit);
     const planet::Result<void> good = checkEdit(editing.edit);

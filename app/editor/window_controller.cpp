@@ -33,7 +33,8 @@ std::string lineOf(const WindowContent& content) {
     const OpenPlanet& open = *shownPlanet(content.session);
     const double radiusM = open.scene.planet->tree().shape.radiusM;
     return shotLine(open.data.chunkFile, planet::poseFromView(view, radiusM), {view.widthPx, view.heightPx},
-                    content.settings.view, open.data.colourImage);
+                    content.settings.view, open.data.colourImage,
+                    open.sourceIsThere ? open.baked.source : std::filesystem::path());
 }
 
 void copyCommandLine(const Window& window, const WindowContent& content, Notices& notices) {

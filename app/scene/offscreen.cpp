@@ -8,6 +8,7 @@
 
 #include "app/data/data_set.h"
 #include "app/scene/overlay_colours.h"
+#include "app/scene/source_lines.h"
 #include "app/settings/camera_text.h"
 #include "planet/measure/true_error.h"
 #include "planet/planet_tools.h"
@@ -55,6 +56,11 @@ planet::Result<void> readDepths(Offscreen& offscreen, const ViewSettings& settin
     return {};
 }
 
+planet::Result<void> readTops(Offscreen& offscreen, const ViewSettings& settings) {
+    if (settings.overlay.colourBy != ColourBy::Source || !offscreen.layers) return {};
+    return addTops(*offscreen.layers, offscreen.scene.planet->selection().draw, offscreen.tops);
+}
+
 }  // namespace
 
 planet::Result<Offscreen> openOffscreen(const SceneConfig& config, const ViewSettings& settings,
@@ -86,12 +92,18 @@ planet::Result<void> drawAndFinish(Offscreen& offscreen, const planet::View& vie
     const auto measured = measuredFor(*scene.planet, settings);
     if (!measured) return tl::unexpected(measured.error());
     if (planet::Result<void> read = readDepths(offscreen, settings); !read) return read;
+    if (planet::Result<void> read = readTops(offscreen, settings); !read) return read;
     const TintData data{.measured = *measured ? &**measured : nullptr,
-                        .depths = offscreen.depths ? &*offscreen.depths : nullptr};
+                        .depths = offscreen.depths ? &*offscreen.depths : nullptr,
+                        .tops = offscreen.layers ? &offscreen.tops : nullptr};
     offscreen.target.bind();
     drawScene(scene, view, settings, 0,
               chunkTints(*scene.planet, selection, settings.overlay, settings.lod.tauPx, data));
-    const planet::Lines lines = linesOver(scene, selection, view, settings);
+    planet::Lines lines = linesOver(scene, selection, view, settings);
+    if (settings.overlay.sources && offscreen.layers) {
+        const planet::Lines outlines = sourceLines(*offscreen.layers, scene.planet->tree(), view);
+        lines.insert(lines.end(), outlines.begin(), outlines.end());
+    }
     // The lines are made for the sphere, not for the cube.
     if (!lines.empty() && !settings.overlay.cube) {
         if (planet::Result<void> drawn = drawLines(offscreen, view, lines); !drawn) return drawn;

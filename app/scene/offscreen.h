@@ -3,15 +3,18 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "app/base/picture.h"
 #include "app/data/leaf_depths.h"
 #include "app/scene/scene.h"
+#include "app/scene/source_tops.h"
 #include "app/settings/camera_text.h"
 #include "planet/gl/device/offscreen_context.h"
 #include "planet/gl/device/render_target.h"
 #include "planet/gl/draw/debug_lines.h"
+#include "planet/source/source_layers.h"
 
 namespace worldy {
 
@@ -22,6 +25,10 @@ struct Offscreen {
     Scene scene;
     std::optional<planet::gl::DebugLines> lines{};  // created when lines are first drawn
     std::optional<LeafDepths> depths{};             // read when a tint first needs them
+    // The layers of the planet's source, whose tint and outlines are drawn if the settings ask for them. The caller opens
+    // the source; without it, the chunks are grey.
+    std::shared_ptr<const planet::SourceLayers> layers{};
+    SourceTops tops{};
 };
 
 // Reads the colour image now if the settings draw it; an unreadable one is an Error.

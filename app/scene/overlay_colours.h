@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include "app/data/leaf_depths.h"
 #include "app/scene/atlas_drape.h"
 #include "app/scene/error_measurement.h"
+#include "app/scene/source_tops.h"
 #include "app/settings/view_settings.h"
 #include "planet/chunk_explanation.h"
 #include "planet/gl/draw/render_settings.h"
@@ -53,9 +53,6 @@ inline const glm::vec3 unboundedColour(0.86f, 0.14f, 0.12f);  // where there is 
 inline const glm::vec3 gainedColour(0.12f, 0.75f, 0.65f);     // where a bound was gained
 // Returns the colour of a chunk by an atlas; grey where the atlas is null or has no value.
 glm::vec3 atlasColour(const AtlasDrape* atlas, const planet::ChunkId& chunk);
-
-// The topmost layer with a height in the middle of chunks; nothing where no layer has one.
-using SourceTops = std::unordered_map<planet::ChunkId, std::optional<std::size_t>>;
 
 // Some tints depend on these; the chunks are grey where one is null.
 struct TintData {

@@ -26,12 +26,17 @@ std::string shellWord(std::string_view text) {
     return quoted + "'";
 }
 
+bool showsSource(const OverlaySettings& overlay) {
+    return overlay.colourBy == ColourBy::Source || overlay.sources;
+}
+
 std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,
                      const PictureSize& size, const ViewSettings& view,
-                     const std::filesystem::path& colourImage) {
+                     const std::filesystem::path& colourImage, const std::filesystem::path& source) {
     std::string line = fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", pathWord(chunkFile),
                                    cameraText(pose), size.widthPx, size.heightPx);
     if (!colourImage.empty()) line += " --colour-image " + pathWord(colourImage);
+    if (!source.empty() && showsSource(view.overlay)) line += " --source " + pathWord(source);
     const std::filesystem::path regions = view.regions.file;
     if (!regions.empty() && regions != regionsFileOf(chunkFile)) line += " --regions " + pathWord(regions);
     for (const std::string& assignment : assignmentsFor(view)) line += " --set " + shellWord(assignment);

@@ -16,9 +16,12 @@ std::string shellWord(std::string_view text);
 
 // Returns the `worldy shot` line for a view: the camera, and the settings that differ from the defaults.
 // Paths are written as given; absolute ones work in any folder. colourImage empty: the one beside the chunk
-// file.
+// file. source: the planet's, for settings that show its layers; empty: none.
 std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,
                      const PictureSize& size, const ViewSettings& view,
-                     const std::filesystem::path& colourImage);
+                     const std::filesystem::path& colourImage, const std::filesystem::path& source = {});
+
+// Returns whether a picture with these settings shows the layers of the planet's source.
+bool showsSource(const OverlaySettings& overlay);
 
 }  // namespace worldy

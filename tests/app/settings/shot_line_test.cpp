@@ -50,6 +50,21 @@ TEST(ShotLine, OfTheDefaultsIsShort) {
               "worldy shot earth.chk -o shot.png --camera=20,10,20000000,0,-90 --size 1280x720");
 }
 
+TEST(ShotLine, NamesTheSourceOnlyIfItsLayersAreShown) {
+    ViewSettings view;
+    const auto sourceOf = [&] {
+        const auto options =
+            typed(shotLine("earth.chk", shotPose, shotSize, view, {}, "/data/my world.toml"));
+        return options ? options->source.string() : options.error().message;
+    };
+    EXPECT_EQ(sourceOf(), "");
+    view.overlay.colourBy = ColourBy::Source;
+    EXPECT_EQ(sourceOf(), "/data/my world.toml");
+    view.overlay.colourBy = ColourBy::None;
+    view.overlay.sources = true;
+    EXPECT_EQ(sourceOf(), "/data/my world.toml");
+}
+
 TEST(ShotLine, TypedAgainGivesTheSameViewAndSettings) {
     Settings settings;
     ViewSettings& view = settings.view;
