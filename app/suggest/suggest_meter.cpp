@@ -235,11 +235,13 @@ SuggestMeasured gathered(const std::vector<SuggestLeg>& legs, const std::vector<
     return result;
 }
 
-// The planet's regions, and those of the candidate, whose names must differ.
+// The planet's regions, and those of the candidate, whose names must differ. If the planet's are switched off, each of
+// them is switched off by itself, so that those of the candidate can apply and none is lost.
 RegionSettings regionsWith(const RegionSettings& now, const std::vector<planet::Region>& more) {
     if (more.empty()) return now;
     RegionSettings all = now;
-    std::vector<planet::Region> list = now.applied();
+    std::vector<planet::Region> list = now.all();
+    for (planet::Region& region : list) region.on &= now.on;
     list.insert(list.end(), more.begin(), more.end());
     all.list = std::make_shared<const std::vector<planet::Region>>(std::move(list));
     all.on = true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/settings/view_settings.h"
+#include "app/suggest/suggest_meter.h"
 #include "app/suggest/suggest_run.h"
 #include "planet/tree/region.h"
 
@@ -35,6 +36,28 @@ TEST(SuggestController, applyingChangesWhatTheSuggestionChoseAndNothingElse) {
     outcome.regionsText = "regions";
     outcome.settings.regions.list = std::make_shared<const std::vector<planet::Region>>(regions);
     EXPECT_EQ(settingsToApply(now, outcome).regions.applied(), regions);
+}
+
+TEST(SuggestController, applyingKeepsRegionsThatAreSwitchedOff) {
+    const planet::Region mine{.name = "mine", .tauFactor = 4}, offAlready{.name = "off", .on = false};
+    const planet::Region suggested{.name = "suggested places", .tauFactor = 2};
+    planet::Region mineOff = mine;
+    mineOff.on = false;
+    ViewSettings now;
+    now.regions.list = std::make_shared<const std::vector<planet::Region>>(std::vector{mine, offAlready});
+    now.regions.file = "planet.regions.toml";
+    const SuggestCandidate candidate{.regions = {suggested}};
+    SuggestOutcome outcome;
+    outcome.regionsText = "regions";
+    for (const bool areOn : {true, false}) {
+        now.regions.on = areOn;
+        outcome.settings = settingsWith(now, candidate);
+        const RegionSettings applied = settingsToApply(now, outcome).regions;
+        EXPECT_TRUE(applied.on);
+        EXPECT_EQ(applied.all(), (std::vector{areOn ? mine : mineOff, offAlready, suggested}));
+        EXPECT_EQ(applied.file, now.regions.file);
+        EXPECT_EQ(settingsWith(now, {}).regions, now.regions);
+    }
 }
 
 }  // namespace
