@@ -7,16 +7,6 @@
 
 namespace worldy {
 
-namespace {
-
-// A path that begins with a dash would be parsed as an option.
-std::string pathWord(const std::filesystem::path& path) {
-    const std::string text = path.string();
-    return shellWord(text.starts_with('-') ? "./" + text : text);
-}
-
-}  // namespace
-
 std::string shellWord(std::string_view text) {
     constexpr std::string_view plain =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
@@ -28,6 +18,11 @@ std::string shellWord(std::string_view text) {
 
 bool showsSource(const OverlaySettings& overlay) {
     return overlay.colourBy == ColourBy::Source || overlay.sources;
+}
+
+std::string pathWord(const std::filesystem::path& path) {
+    const std::string text = path.string();
+    return shellWord(text.starts_with('-') ? "./" + text : text);
 }
 
 std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,

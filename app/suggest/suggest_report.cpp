@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "app/base/text.h"
 #include "app/measure/sweep_points.h"
 #include "app/scene/frame_report.h"
+#include "app/settings/shot_line.h"
 #include "app/suggest/suggest_budget.h"
 #include "app/suggest/suggest_run.h"
 #include "app/suggest/suggest_search.h"
@@ -71,6 +73,17 @@ std::string needsText(const SuggestOutcome& outcome) {
         text += fmt::format(" At τ = {:.3g} px the error would fit, but the budget would have to allow {}.",
                             needs.errorMet->candidate.tauPx, over(*needs.errorMet));
     return text;
+}
+
+// Returns the command that draws the planet with the suggestion. A report that is given no files names those beside it.
+std::string drawLine(const SuggestOutcome& outcome, const SuggestRequest& request, const std::string& name) {
+    const auto orBeside = [&](const std::filesystem::path& file, const char* ending) {
+        return pathWord(file.empty() ? std::filesystem::path(name + ending) : file);
+    };
+    std::string line = fmt::format("worldy shot {} --settings {}", pathWord(outcome.file),
+                                   orBeside(request.presetFile, ".toml"));
+    if (!outcome.regionsText.empty()) line += " --regions " + orBeside(request.regionsFile, ".regions.toml");
+    return line + " -o shot.png";
 }
 
 Json figuresJson(const SuggestFigures& figures) {
@@ -237,9 +250,7 @@ std::string suggestMarkdown(const SuggestOutcome& outcome, const SuggestRequest&
         if (!outcome.regionsText.empty())
             text += fmt::format("\nThe regions are in `{}.regions.toml`.\n", name);
     }
-    text += fmt::format("\n`worldy shot {} --settings {}.toml{} -o shot.png` draws the planet with them.\n",
-                        request.file.filename().string(), name,
-                        outcome.regionsText.empty() ? "" : fmt::format(" --regions {}.regions.toml", name));
+    text += fmt::format("\n`{}` draws the planet with them.\n", drawLine(outcome, request, name));
     text += "\n## What it costs and leaves\n\n| | before | suggested |\n|---|---|---|\n";
     for (const SuggestEffect& effect : effectsOf(outcome))
         text += fmt::format("| {} | {} | {} |\n", effect.name, effect.before, effect.after);

@@ -337,11 +337,11 @@ Result<void> readBack(const SuggestRequest& request, const ViewSettings& suggest
 std::string showLine(const SuggestRequest& request, const SuggestOutcome& outcome,
                      const planet::CameraPose& pose) {
     std::string line =
-        fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", shellWord(outcome.file.string()),
+        fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", pathWord(outcome.file),
                     cameraText(roundedPose(pose)), request.size.widthPx, request.size.heightPx);
-    if (!request.presetFile.empty()) line += " --settings " + shellWord(request.presetFile.string());
+    if (!request.presetFile.empty()) line += " --settings " + pathWord(request.presetFile);
     if (!outcome.settings.regions.file.empty())
-        line += " --regions " + shellWord(outcome.settings.regions.file);
+        line += " --regions " + pathWord(outcome.settings.regions.file);
     return line;
 }
 

@@ -212,6 +212,23 @@ TEST_F(SuggestPlanet, viewpointsOfTheWholePlanetMustAllBeWithinTheBudget) {
     EXPECT_EQ(outcome.frames.front(), outcome.measured.figures.frames);
 }
 
+TEST_F(SuggestPlanet, theCommandInTheReportNamesTheSuggestedBakeAndQuotesNames) {
+    SuggestRequest request = requestOf("10 M triangles");
+    SuggestOutcome outcome = suggest(request);
+    outcome.file = "out/planet of 17.chk";
+    EXPECT_THAT(
+        suggestMarkdown(outcome, request, "my best", false),
+        HasSubstr("`worldy shot 'out/planet of 17.chk' --settings 'my best.toml' -o shot.png` draws"));
+    outcome.regionsText = "regions";
+    EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
+                HasSubstr("`worldy shot 'out/planet of 17.chk' --settings best.toml --regions "
+                          "best.regions.toml -o shot.png` draws"));
+    request.presetFile = "a b/best.toml";
+    request.regionsFile = "a b/best.regions.toml";
+    EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
+                HasSubstr("--settings 'a b/best.toml' --regions 'a b/best.regions.toml' -o shot.png` draws"));
+}
+
 TEST_F(SuggestPlanet, theDrawnErrorBoundsTheTrueErrorForBothMetrics) {
     planet::FinestHeights heights(
         std::make_shared<const planet::ChunkFile>(planet::ChunkFile::open(chunkFile()).value()));
