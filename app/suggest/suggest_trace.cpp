@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,10 +37,20 @@ std::vector<TraceRow> traceRows(const SuggestedForTrace& suggested) {
             {SuggestLimit::ErrorPx, suggested.engineErrorPx, suggested.found.errorPx}};
 }
 
-// A cost of 0 is one that the trace's nodes do not tell.
+// Returns nothing for a value that the trace does not tell: a cost of 0, or an error that is NaN.
+std::optional<double> toldValue(const TraceRow& row, double value) {
+    const bool isUnknown = row.limit == SuggestLimit::ErrorPx ? std::isnan(value) : value == 0;
+    return isUnknown ? std::nullopt : std::optional(value);
+}
+
 std::string traceValueText(const TraceRow& row, double value) {
-    const bool isUnknown = row.limit != SuggestLimit::ErrorPx && value == 0;
-    return isUnknown ? std::string("not told") : limitText(row.limit, value);
+    const auto told = toldValue(row, value);
+    return told ? limitText(row.limit, *told) : "not told";
+}
+
+nlohmann::ordered_json traceValueJson(const TraceRow& row, double value) {
+    const auto told = toldValue(row, value);
+    return told ? nlohmann::ordered_json(*told) : nlohmann::ordered_json(nullptr);
 }
 
 Result<void> checkTold(const std::filesystem::path& file, const SuggestedForTrace& suggested) {
@@ -128,11 +139,8 @@ nlohmann::ordered_json traceSuggestJson(const SuggestedForTrace& suggested,
         {"met", suggested.found.isMet},    {"verdict", traceVerdictText(suggested)},
         {"tau_px", suggested.found.tauPx}, {"frames", suggested.frames}};
     for (const TraceRow& row : traceRows(suggested)) {
-        const auto number = [](double value) {
-            return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
-        };
-        json["engine"][std::string(textOf(row.limit).key)] = number(row.engine);
-        json["suggested"][std::string(textOf(row.limit).key)] = number(row.suggested);
+        json["engine"][std::string(textOf(row.limit).key)] = traceValueJson(row, row.engine);
+        json["suggested"][std::string(textOf(row.limit).key)] = traceValueJson(row, row.suggested);
     }
     return json;
 }
