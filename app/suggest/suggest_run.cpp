@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/base/stopwatch.h"
+#include "app/base/text.h"
 #include "app/flight/flight_path_file.h"
 #include "app/flight/flight_record.h"
 #include "app/measure/atlas_survey.h"
@@ -123,16 +124,20 @@ Result<SuggestLeg> surveyedLeg(const SuggestRequest& request, SuggestClock& cloc
 Result<std::vector<SuggestLeg>> legsOf(const SuggestRequest& request, const planet::ChunkFile& chunks,
                                        SuggestClock& clock) {
     std::vector<SuggestLeg> legs;
+    const auto add = [&](SuggestLeg leg, const fs::path& file) {
+        if (leg.name.empty()) leg.name = flightName(file);
+        legs.push_back(std::move(leg));
+    };
     const double radiusM = chunks.info().shape.radiusM;
     for (const fs::path& file : request.flights) {
         TRY_ASSIGN(const FlightPath path, loadFlightPath(file));
         TRY_ASSIGN(SuggestLeg leg,
                    legOf(path, request.stepS, radiusM, request.view.camera.fovDeg, request.size));
-        legs.push_back(std::move(leg));
+        add(std::move(leg), file);
     }
     for (const fs::path& file : request.recordings) {
         TRY_ASSIGN(SuggestLeg leg, recordedLeg(file, chunks));
-        legs.push_back(std::move(leg));
+        add(std::move(leg), file);
     }
     if (request.survey) {
         TRY_ASSIGN(SuggestLeg leg, surveyedLeg(request, clock));

@@ -229,6 +229,15 @@ TEST_F(SuggestPlanet, theCommandInTheReportNamesTheSuggestedBakeAndQuotesNames) 
                 HasSubstr("--settings 'a b/best.toml' --regions 'a b/best.regions.toml' -o shot.png` draws"));
 }
 
+TEST_F(SuggestPlanet, aFlightWithoutANameIsCalledAsItsFile) {
+    SuggestRequest request = requestOf("10 M triangles");
+    const std::filesystem::path unnamed = folder_->path() / "low_pass.toml";
+    std::ofstream(unnamed) << tests::contentOf(flight()).substr(std::string("name = \"Down\"\n").size());
+    request.flights = {flight(), unnamed};
+    const SuggestOutcome outcome = suggest(request);
+    EXPECT_EQ(outcome.legs, (std::vector<std::string>{"Down", "low pass"}));
+}
+
 TEST_F(SuggestPlanet, theDrawnErrorBoundsTheTrueErrorForBothMetrics) {
     planet::FinestHeights heights(
         std::make_shared<const planet::ChunkFile>(planet::ChunkFile::open(chunkFile()).value()));
