@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -76,14 +77,16 @@ SuggestPage suggestPageOf(const SuggestOutcome& outcome, const SuggestRequest& r
     };
     page.limitsCosts = outcome.budget.limitsCosts();
     page.errorLimitPx = outcome.budget[SuggestLimit::ErrorPx].value_or(0);
+    // Figures that are not known have no place in the plot.
+    const auto addPoint = [&](const SuggestFigures& figures, bool isWhole, bool isBest, bool isBefore) {
+        const SuggestPage::Point point{error(figures), cost(figures), isWhole, isBest, isBefore};
+        if (std::isfinite(point.errorPx) && std::isfinite(point.costShare)) page.points.push_back(point);
+    };
     if (page.limitsCosts) {
         for (const SuggestTrial& trial : outcome.found.trials)
-            page.points.push_back({error(trial.figures), cost(trial.figures),
-                                   trial.scope == SuggestScope::Whole, false, false});
-        page.points.push_back(
-            {error(outcome.beforeMeasured.figures), cost(outcome.beforeMeasured.figures), true, false, true});
-        page.points.push_back(
-            {error(outcome.measured.figures), cost(outcome.measured.figures), true, true, false});
+            addPoint(trial.figures, trial.scope == SuggestScope::Whole, false, false);
+        addPoint(outcome.beforeMeasured.figures, true, false, true);
+        addPoint(outcome.measured.figures, true, true, false);
     }
     for (const SuggestPlace& place : outcome.places)
         page.places.push_back({placeCaption(place), place.picture});

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -40,7 +41,6 @@ namespace {
 using planet::Result;
 
 constexpr std::size_t sampledFrames = 24;  // of each leg
-constexpr double suggestSettleS = 120;     // simulated
 constexpr std::size_t keptWorst = 5;       // of each limit
 constexpr double apartDeg = 2;             // between places of these
 
@@ -64,6 +64,7 @@ struct Measuring {
     double lateChunks = 0, drawnChunks = 0;
     planet::PopTotals pops{};
     std::uint64_t thrashes = 0;
+    std::size_t unsettled = 0;
 
     planet::View viewOfFrame(const SuggestFrame& frame) const {
         if (!frame.keepsClear) return frame.view;
@@ -82,18 +83,34 @@ struct Measuring {
             planet.takeTileChanges(kind);
     }
 
-    planet::View settle(const SuggestFrame& frame) const {
+    // A view that was settled for, and whether it was loaded within suggestSettleS.
+    struct Settled {
+        planet::View view;
+        bool isLoaded = false;
+    };
+    Settled settle(const SuggestFrame& frame) const {
         constexpr int mostLifts = 5;  // loaded ground may lift the camera, which then needs more blocks
-        planet::View view = viewOfFrame(frame);
+        Settled settled{viewOfFrame(frame)};
         for (int i = 0; i < mostLifts; ++i) {
-            const planet::ViewInput input = inputOf(view);
-            planet.settle({&input, 1}, planet::noUpload, suggestSettleS);
+            const planet::ViewInput input = inputOf(settled.view);
+            settled.isLoaded = planet.settle({&input, 1}, planet::noUpload, suggestSettleS);
             dropTiles();
             const planet::View lifted = viewOfFrame(frame);
-            if (lifted == view) break;
-            view = lifted;
+            if (lifted == settled.view) break;
+            settled.view = lifted;
         }
-        return view;
+        return settled;
+    }
+
+    // Costs and error of a view that is not loaded would be those of coarser chunks than it wants.
+    void addUnsettled(const planet::View& view, std::size_t frame, LegValues& values) {
+        for (std::vector<double>& of : values.of) of.push_back(std::numeric_limits<double>::quiet_NaN());
+        values.views.push_back(view);
+        values.frames.push_back(frame);
+        ++unsettled;
+        const planet::SelectionCounters& counters = planet.selection().counters;
+        lateChunks += counters.waiting;
+        drawnChunks += counters.drawn;
     }
 
     void addFrame(const planet::View& view, bool isFlown, std::size_t frame, LegValues& values) {
@@ -126,8 +143,11 @@ struct Measuring {
         for (std::size_t i = 0; i < leg.frames.size(); i += stride) {
             if (!step(i)) return planet::cancelled();
             planet.tools().forgetSelections();
-            const planet::View view = settle(leg.frames[i]);
-            addFrame(view, leg.isFlown, i, values);
+            const Settled settled = settle(leg.frames[i]);
+            if (settled.isLoaded)
+                addFrame(settled.view, leg.isFlown, i, values);
+            else
+                addUnsettled(settled.view, i, values);
         }
         return {};
     }
@@ -137,12 +157,15 @@ struct Measuring {
         planet::LodChanges changes;
         double timeS = 0;
         planet::View before{};
+        bool beginsLoaded = true;
         std::optional<double> seaM;
         for (std::size_t i = 0; i < leg.frames.size(); ++i) {
             if (!step(i)) return planet::cancelled();
             const SuggestFrame& frame = leg.frames[i];
             if (i == 0) {
-                before = settle(frame);
+                const Settled settled = settle(frame);
+                before = settled.view;
+                beginsLoaded = settled.isLoaded;
                 const planet::gl::RenderSettings render = renderSettingsOf(settings, before, planet.tree());
                 // The sea is drawn as with a GPU, so that pops are the same on any machine.
                 if (planet::gl::isSeaSurfaceDrawn(render, /*software=*/false)) seaM = render.seaLevelM;
@@ -153,7 +176,10 @@ struct Measuring {
             planet.step({&input, 1}, planet::noUpload, elapsedS);
             dropTiles();
             timeS += elapsedS;
-            addFrame(view, true, i, values);
+            if (i == 0 && !beginsLoaded)
+                addUnsettled(view, i, values);
+            else
+                addFrame(view, true, i, values);
             const bool jumped =
                 i > 0 && planet::isCameraJump(before.eyeM, view.eyeM, planet.tree().shape.radiusM, elapsedS);
             meter.add(planet.tree(), planet.selection(), view, input.lod, timeS,
@@ -217,10 +243,12 @@ SuggestMeasured gathered(const std::vector<SuggestLeg>& legs, const std::vector<
         }
         result.byLeg.push_back(worst);
         const std::vector<double>& of = values[leg].of[indexOf(SuggestLimit::ErrorPx)];
-        errors.insert(errors.end(), of.begin(), of.end());
+        figures.frames += of.size();
+        std::ranges::copy_if(of, std::back_inserter(errors), [](double error) { return !std::isnan(error); });
     }
-    figures.frames = errors.size();
-    figures.p99ErrorPx = planet::percentileOf(errors, 0.99);
+    figures.unsettled = measured.unsettled;
+    figures.p99ErrorPx =
+        errors.empty() ? std::numeric_limits<double>::quiet_NaN() : planet::percentileOf(errors, 0.99);
     // A frame whose bound is useless, because the eye lies within a chunk's bounds, would hide all others.
     double sum = 0;
     for (const double error : errors) sum += std::min(error, figures.p99ErrorPx);
@@ -349,7 +377,11 @@ Result<std::vector<SuggestGround>> SuggestMeter::groundIn(const SuggestCandidate
     const std::function<bool(double)> always = [](double) { return true; };
     const Measuring measuring{*planet_, settingsWith(now_, candidate), cost_, always};
     TRY(apply(measuring.settings));
-    measuring.settle({view, false, 0});
+    if (!measuring.settle({view, false, 0}).isLoaded) {
+        return planet::badInput(
+            fmt::format("the view was not loaded within {:g} s of the simulated disk; expected a faster one",
+                        suggestSettleS));
+    }
     const planet::ChunkTree& tree = planet_->tree();
     std::vector<SuggestGround> all;
     for (const planet::DrawItem& item : planet_->selection().draw) {

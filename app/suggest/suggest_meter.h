@@ -48,6 +48,9 @@ SuggestLeg legOf(const planet::Atlas& atlas);
 // The percentile of the frames of a flight that must meet the budgets. Of viewpoints, each must.
 inline constexpr double suggestShare = 0.999;
 
+// A view that is not loaded after this time of the simulated disk is not waited for, in seconds.
+inline constexpr double suggestSettleS = 120;
+
 // A frame with a large value.
 struct SuggestWorst {
     std::size_t leg = 0;
@@ -94,7 +97,8 @@ public:
     planet::Result<SuggestMeasured> measure(const SuggestCandidate& candidate, SuggestScope scope,
                                             const std::function<bool(double share)>& goOn);
 
-    // Returns the ground of each chunk that a candidate draws from a settled view.
+    // Returns the ground of each chunk that a candidate draws from a settled view. The Error says that it was not loaded
+    // within suggestSettleS.
     planet::Result<std::vector<SuggestGround>> groundIn(const SuggestCandidate& candidate,
                                                         const planet::View& view);
 

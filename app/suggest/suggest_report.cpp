@@ -86,6 +86,16 @@ std::string drawLine(const SuggestOutcome& outcome, const SuggestRequest& reques
     return line + " -o shot.png";
 }
 
+std::string unsettledText(const SuggestOutcome& outcome) {
+    const std::size_t views = outcome.measured.figures.unsettled;
+    if (views == 0) return "";
+    return fmt::format(
+        " {} not loaded within {:g} s of the simulated disk, so what {} cost{} and leave{} is not known; a "
+        "faster disk or a larger τ may help.",
+        views == 1 ? "1 view was" : fmt::format("{} views were", views), suggestSettleS,
+        views == 1 ? "it" : "they", views == 1 ? "s" : "", views == 1 ? "s" : "");
+}
+
 Json figuresJson(const SuggestFigures& figures) {
     Json json;
     for (const SuggestLimit limit : suggestLimits) {
@@ -99,6 +109,7 @@ Json figuresJson(const SuggestFigures& figures) {
     json["thrashes"] = figures.thrashes;
     json["late_share"] = figures.lateShare;
     json["frames"] = figures.frames;
+    json["unsettled"] = figures.unsettled;
     return json;
 }
 
@@ -146,13 +157,13 @@ std::string verdictText(const SuggestOutcome& outcome) {
     }
     const auto binds = bindingLimit(outcome.budget, outcome.measured.figures.values);
     std::string text = fmt::format("The budget of {} is not met.", budgetText(outcome.budget));
-    if (binds) {
+    if (binds && !std::isnan(valueOfLimit(outcome.measured.figures, *binds))) {
         const double value = valueOfLimit(outcome.measured.figures, *binds);
         text +=
             fmt::format(" The budget of {} binds: the closest settings have {} of {}.", textOf(*binds).noun,
                         limitText(*binds, value), limitText(*binds, *outcome.budget[*binds]));
     }
-    return text + needsText(outcome);
+    return text + unsettledText(outcome) + needsText(outcome);
 }
 
 std::string scopeText(const SuggestOutcome& outcome) {
@@ -212,13 +223,18 @@ std::vector<SuggestEffect> effectsOf(const SuggestOutcome& outcome) {
     const SuggestFigures& before = outcome.beforeMeasured.figures;
     const SuggestFigures& after = outcome.measured.figures;
     const auto px = [](double value) { return limitText(SuggestLimit::ErrorPx, value); };
-    return {{"Drawn error, 99th percentile of frames", px(before.p99ErrorPx), px(after.p99ErrorPx)},
-            {"Drawn error, mean of frames", px(before.meanErrorPx), px(after.meanErrorPx)},
-            {"Largest pop", px(before.worstPopPx), px(after.worstPopPx)},
-            {"Pops", fmt::format("{}", before.pops), fmt::format("{}", after.pops)},
-            {"Thrashes", fmt::format("{}", before.thrashes), fmt::format("{}", after.thrashes)},
-            {"Drawn chunks that wait for data", fmt::format("{:.2f} %", 100 * before.lateShare),
-             fmt::format("{:.2f} %", 100 * after.lateShare)}};
+    std::vector<SuggestEffect> effects = {
+        {"Drawn error, 99th percentile of frames", px(before.p99ErrorPx), px(after.p99ErrorPx)},
+        {"Drawn error, mean of frames", px(before.meanErrorPx), px(after.meanErrorPx)},
+        {"Largest pop", px(before.worstPopPx), px(after.worstPopPx)},
+        {"Pops", fmt::format("{}", before.pops), fmt::format("{}", after.pops)},
+        {"Thrashes", fmt::format("{}", before.thrashes), fmt::format("{}", after.thrashes)},
+        {"Drawn chunks that wait for data", fmt::format("{:.2f} %", 100 * before.lateShare),
+         fmt::format("{:.2f} %", 100 * after.lateShare)}};
+    if (before.unsettled + after.unsettled > 0)
+        effects.push_back({"Views that were not loaded in time", fmt::format("{}", before.unsettled),
+                           fmt::format("{}", after.unsettled)});
+    return effects;
 }
 
 std::string placeCaption(const SuggestPlace& place) {

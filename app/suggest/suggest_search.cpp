@@ -111,9 +111,13 @@ private:
     // one τ, so values that were measured for another question count too.
     Result<void> bracket(double guessPx, double step,
                          const std::function<bool(const SuggestFigures&)>& isTooSmall) {
+        // A larger τ needs less data, so it may be loaded in time.
+        const auto needsLarger = [&](const SuggestFigures& figures) {
+            return figures.unsettled > 0 || isTooSmall(figures);
+        };
         std::optional<double> small, large;
         for (const auto& [tauPx, figures] : known_) {
-            if (isTooSmall(figures))
+            if (needsLarger(figures))
                 small = tauPx;
             else if (!large)
                 large = tauPx;
@@ -136,7 +140,7 @@ private:
             next = std::clamp(roundedTau(next), ranges_.leastTauPx, ranges_.mostTauPx);
             if (next == small || next == large) break;
             TRY_ASSIGN(const SuggestTrial trial, at(next));
-            (isTooSmall(trial.figures) ? small : large) = next;
+            (needsLarger(trial.figures) ? small : large) = next;
         }
         return {};
     }

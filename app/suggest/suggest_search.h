@@ -43,6 +43,8 @@ struct SuggestFigures {
     std::uint64_t thrashes = 0;
     double lateShare = 0;  // of the drawn chunks: their children have not been loaded yet
     std::size_t frames = 0;
+    // Views that were not loaded in time (suggestSettleS), so that their values are not known and no budget counts as met.
+    std::size_t unsettled = 0;
 
     bool operator==(const SuggestFigures&) const = default;
 };

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -236,6 +237,52 @@ TEST_F(SuggestPlanet, aFlightWithoutANameIsCalledAsItsFile) {
     request.flights = {flight(), unnamed};
     const SuggestOutcome outcome = suggest(request);
     EXPECT_EQ(outcome.legs, (std::vector<std::string>{"Down", "low pass"}));
+}
+
+TEST_F(SuggestPlanet, viewsThatTheDiskNeverLoadsMeetNoBudget) {
+    SuggestRequest request = requestOf("12 k triangles");
+    request.flights.clear();
+    request.survey = planet::AtlasGrid{.altitudesM = {100e3}, .headings = 1, .most = 24};
+    request.view.lod.tauPx = 0.1;
+    request.view.paging.badDisk.bandwidthMBs = 0.00005;
+    request.vary = suggestVaryFromTexts({"tau"}).value();
+    const SuggestOutcome outcome = suggest(request);
+    EXPECT_GT(outcome.beforeMeasured.figures.unsettled, 0u);
+    EXPECT_TRUE(std::isnan(valueOf(outcome.beforeMeasured, SuggestLimit::Triangles)));
+    EXPECT_FALSE(outcome.found.isUnchanged);
+    EXPECT_THAT(verdictText(outcome), Not(HasSubstr("already meet")));
+    if (outcome.isMet) {
+        EXPECT_EQ(outcome.measured.figures.unsettled, 0u);
+        EXPECT_EQ(outcome.measured.figures.lateShare, 0);
+    } else {
+        EXPECT_THAT(verdictText(outcome), HasSubstr("not loaded within 120 s of the simulated disk"));
+    }
+    // The whole disk is simulated, so a flight that begins there is not known either.
+    request.flights = {flight()};
+    request.survey.reset();
+    request.vary.tau = false;
+    const SuggestOutcome flown = suggest(request);
+    EXPECT_FALSE(flown.isMet);
+    EXPECT_EQ(flown.measured.figures.unsettled, 1u);
+    EXPECT_THAT(verdictText(flown), HasSubstr("1 view was not loaded"));
+    EXPECT_TRUE(suggestJson(flown, request)["suggested"]["triangles"].is_null());
+    EXPECT_EQ(suggestJson(flown, request)["suggested"]["unsettled"], 1);
+    for (const SuggestRow& row : rowsOf(flown)) EXPECT_EQ(row.verdict, "not measured");
+
+    SuggestMeter meter(openSimulated(), request.view, {}, {});
+    const auto ground = meter.groundIn(candidateOf(request.view),
+                                       planet::viewFromPose({.altitudeM = 100e3}, 1e6, 1, 640, 400));
+    ASSERT_FALSE(ground);
+    EXPECT_THAT(ground.error().message, HasSubstr("not loaded within 120 s"));
+}
+
+TEST_F(SuggestPlanet, aFastDiskSettlesEveryView) {
+    SuggestRequest request = requestOf("10 M triangles");
+    request.view.paging.badDisk.latencyMs = 1;
+    const SuggestOutcome outcome = suggest(request);
+    EXPECT_TRUE(outcome.isMet);
+    EXPECT_EQ(outcome.measured.figures.unsettled, 0u);
+    EXPECT_THAT(verdictText(outcome), Not(HasSubstr("not loaded")));
 }
 
 TEST_F(SuggestPlanet, theDrawnErrorBoundsTheTrueErrorForBothMetrics) {

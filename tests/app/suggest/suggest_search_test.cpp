@@ -123,6 +123,29 @@ TEST(SuggestSearch, aChunkSizeWithLessErrorWins) {
     EXPECT_NEAR(found.best.candidate.tauPx, 2, 0.05);
 }
 
+TEST(SuggestSearch, viewsThatAreNotLoadedInTimeAskForALargerTolerance) {
+    SuggestPlanted planted;
+    // Below 3 px, the disk is too slow.
+    planted.calls.measure = [](const SuggestCandidate& candidate, SuggestScope) {
+        SuggestFigures figures = plantedFigures(candidate);
+        if (candidate.tauPx < 3) {
+            figures.values.fill(std::numeric_limits<double>::quiet_NaN());
+            figures.unsettled = 1;
+        }
+        return planet::Result<SuggestFigures>(figures);
+    };
+    const SuggestFound error = planted.search("13 px");
+    EXPECT_TRUE(error.isMet);
+    EXPECT_NEAR(error.best.candidate.tauPx, 10, 10 * (suggestAccuracy - 1));
+    const SuggestFound cost = planted.search("300 k triangles");
+    EXPECT_TRUE(cost.isMet);
+    EXPECT_GE(cost.best.candidate.tauPx, 3);
+    EXPECT_LE(cost.best.candidate.tauPx, 3 * suggestAccuracy);
+    const SuggestFound none = planted.search("2 px");
+    EXPECT_FALSE(none.isMet);
+    EXPECT_FALSE(none.isUnchanged);
+}
+
 TEST(SuggestSearch, whatIsNoBetterStaysAsItIs) {
     SuggestPlanted planted;
     planted.ranges.memoriesMiB = {256, 64};

@@ -228,12 +228,18 @@ void suggestPlot(const SuggestView& suggest, SuggestPanelState& state) {
         return emptyState(suggest.running
                               ? "Measuring the first candidate."
                               : "Press Suggest to plot the cost of each candidate against its error.");
+    // Candidates whose error is not known, because a view was not loaded in time, have no place in the plot.
+    std::vector<std::size_t> plotted;
+    for (std::size_t i = 0; i < suggest.trials.size(); ++i)
+        if (!std::isnan(figureOf(suggest.trials[i], SuggestLimit::ErrorPx))) plotted.push_back(i);
+    if (plotted.empty())
+        return emptyState("No candidate had all its views loaded in time, so their costs are not known.");
     std::vector<FrontPoint> points;
     // A series of each point, because a line through candidates would say nothing. The first of each kind is in the legend.
     std::vector<FrontSeries> series;
     std::array<bool, 2> isNamed{};
-    for (std::size_t i = 0; i < suggest.trials.size(); ++i) {
-        const SuggestTrial& trial = suggest.trials[i];
+    for (const std::size_t index : plotted) {
+        const SuggestTrial& trial = suggest.trials[index];
         const bool isWhole = trial.scope == SuggestScope::Whole;
         const bool isBest =
             suggest.outcome && trial.candidate == suggest.outcome->found.best.candidate && isWhole;
@@ -243,10 +249,10 @@ void suggestPlot(const SuggestView& suggest, SuggestPanelState& state) {
                           isBest ? fmt::format("{:.3g}", trial.candidate.tauPx) : std::string(), isBest});
         const bool isFirst = !std::exchange(isNamed[isWhole ? 1 : 0], true);
         const char* const name = !isFirst ? "" : isWhole ? "all frames" : "samples";
-        series.push_back({name, colour, {i}});
+        series.push_back({name, colour, {points.size() - 1}});
     }
-    const auto tell = [&](std::size_t i) {
-        const SuggestTrial& trial = suggest.trials[i];
+    const auto tell = [&](std::size_t point) {
+        const SuggestTrial& trial = suggest.trials[plotted[point]];
         ImGui::TextUnformatted(candidateText(trial.candidate, tauSymbol()).c_str());
         for (const SuggestLimit limit : suggestLimits) {
             if (std::isnan(figureOf(trial, limit))) continue;
@@ -256,6 +262,10 @@ void suggestPlot(const SuggestView& suggest, SuggestPanelState& state) {
         ImGui::TextDisabled("%s",
                             trial.scope == SuggestScope::Whole ? "all frames" : "a sample of the frames");
     };
+    const auto chosen = std::ranges::find(plotted, state.selected);
+    const auto chosenPoint = chosen == plotted.end()
+                                 ? std::nullopt
+                                 : std::optional(static_cast<std::size_t>(chosen - plotted.begin()));
     const auto clicked = frontChart(
         {.name = "suggest plot",
          .costName = suggest.budget.limitsCosts() ? "share_of_budget" : "triangles",
@@ -269,8 +279,8 @@ void suggestPlot(const SuggestView& suggest, SuggestPanelState& state) {
              "a budget of costs on the vertical axis, both logarithmic. 1 is the budget. Ringed: the "
              "suggestion, labelled with its tolerance.",
          .tell = tell},
-        state.selected);
-    if (clicked) state.selected = clicked;
+        chosenPoint);
+    if (clicked) state.selected = plotted[*clicked];
 }
 
 constexpr std::array suggestColumns = {
