@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/base/plot_scale.h"
+#include "app/base/utf8.h"
 #include "app/measure/sweep_points.h"
 
 namespace worldy {
@@ -57,9 +58,11 @@ struct Plot {
         return plotBottom - static_cast<int>(costs.position(cost) * (plotBottom - plotTop));
     }
 
+    // OpenImageIO 2.4 draws letters beyond ASCII as others: it keeps only the last six bits of each.
     bool text(int atX, int atY, const std::string& words, draw::TextAlignX align = draw::TextAlignX::Left,
               const Colour& colour = ink, int size = textSize) {
-        return draw::render_text(image, atX, atY, words, size, font, colour, align, draw::TextAlignY::Center);
+        return draw::render_text(image, atX, atY, asciiOf(words), size, font, colour, align,
+                                 draw::TextAlignY::Center);
     }
     void line(int x1, int y1, int x2, int y2, const Colour& colour, int thickness = finer) {
         for (int away = -thickness / 2; away <= thickness / 2; ++away) {

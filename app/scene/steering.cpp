@@ -1,9 +1,10 @@
 #include "app/scene/steering.h"
-#include "app/base/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "app/base/text.h"
 
 namespace worldy {
 

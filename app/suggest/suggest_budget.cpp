@@ -52,10 +52,19 @@ struct BudgetPart {
     double value = 0;
 };
 
+// Returns "ms, triangles, ... or px".
+std::string unitsText() {
+    std::string text;
+    for (const BudgetUnit& unit : budgetUnits) {
+        const bool isLast = &unit == &budgetUnits.back();
+        text += fmt::format("{}{}", text.empty() ? "" : isLast ? " or " : ", ", unit.name);
+    }
+    return text;
+}
+
 // The problem of a part is in the Error, without the name of the option.
 Result<BudgetPart> budgetPart(std::string_view part) {
-    constexpr std::string_view wanted =
-        "expected a number above 0 with ms, triangles, k triangles, M triangles, MiB, GiB, MB or px";
+    const std::string wanted = fmt::format("expected a number above 0 with {}", unitsText());
     if (part.empty()) return planet::badInput(fmt::format("a part between commas is empty; {}", wanted));
     const std::size_t digits =
         std::min(part.find_first_not_of("+-0123456789.eE"), part.size());  // "e" begins no unit

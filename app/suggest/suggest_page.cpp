@@ -10,12 +10,11 @@
 #include <cstddef>
 #include <sstream>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "app/base/picture.h"
 #include "app/base/plot_scale.h"
+#include "app/base/utf8.h"
 #include "planet/base/result.h"
 
 namespace worldy {
@@ -37,31 +36,19 @@ constexpr PageColour pageBlue = {0.00f, 0.45f, 0.70f, 1};
 constexpr PageColour pageRed = {0.84f, 0.37f, 0.00f, 1};
 constexpr PageColour pageGreen = {0.00f, 0.55f, 0.40f, 1};
 
-// OpenImageIO draws no letters beyond ASCII in every version.
-std::string plainLetters(const std::string& words) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> plain = {
-        {{"\u03c4", "tau"}, {"\u00b0", " deg"}, {"\u03b5", "eps"}}};
-    std::string text = words;
-    for (const auto& [letter, instead] : plain) {
-        for (std::size_t at = text.find(letter); at != std::string::npos;
-             at = text.find(letter, at + instead.size()))
-            text.replace(at, letter.size(), instead);
-    }
-    return text;
-}
-
 struct PageCanvas {
     ImageBuf image{OIIO::ImageSpec(pageWidth, pageHeight, 3, OIIO::TypeDesc::FLOAT)};
     bool hasFont = true;
     int y = margin;
 
+    // OpenImageIO 2.4 draws letters beyond ASCII as others: it keeps only the last six bits of each.
     void text(int atX, int atY, const std::string& words, int size = bodyPx,
               const PageColour& colour = pageInk, draw::TextAlignX align = draw::TextAlignX::Left) {
-        hasFont &= draw::render_text(image, atX, atY + size * 4 / 5, plainLetters(words), size, pageFont,
-                                     colour, align, draw::TextAlignY::Baseline);
+        hasFont &= draw::render_text(image, atX, atY + size * 4 / 5, asciiOf(words), size, pageFont, colour,
+                                     align, draw::TextAlignY::Baseline);
     }
     int widthOf(const std::string& words, int size) {
-        const OIIO::ROI box = draw::text_size(plainLetters(words), size, pageFont);
+        const OIIO::ROI box = draw::text_size(asciiOf(words), size, pageFont);
         hasFont &= box.defined();
         return box.defined() ? box.width() : 0;
     }

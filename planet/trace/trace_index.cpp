@@ -11,8 +11,6 @@
 
 namespace planet {
 
-namespace {}  // namespace
-
 tl::unexpected<Error> TraceFile::damaged(std::uint64_t offset, const std::string& what) const {
     return badInput(fmt::format("{}: byte {}: {}", name_, offset, what));
 }

@@ -213,32 +213,6 @@ TEST_F(SuggestPlanet, viewpointsOfTheWholePlanetMustAllBeWithinTheBudget) {
     EXPECT_EQ(outcome.frames.front(), outcome.measured.figures.frames);
 }
 
-TEST_F(SuggestPlanet, theCommandInTheReportNamesTheSuggestedBakeAndQuotesNames) {
-    SuggestRequest request = requestOf("10 M triangles");
-    SuggestOutcome outcome = suggest(request);
-    outcome.file = "out/planet of 17.chk";
-    EXPECT_THAT(
-        suggestMarkdown(outcome, request, "my best", false),
-        HasSubstr("`worldy shot 'out/planet of 17.chk' --settings 'my best.toml' -o shot.png` draws"));
-    outcome.regionsText = "regions";
-    EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
-                HasSubstr("`worldy shot 'out/planet of 17.chk' --settings best.toml --regions "
-                          "best.regions.toml -o shot.png` draws"));
-    request.presetFile = "a b/best.toml";
-    request.regionsFile = "a b/best.regions.toml";
-    EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
-                HasSubstr("--settings 'a b/best.toml' --regions 'a b/best.regions.toml' -o shot.png` draws"));
-}
-
-TEST_F(SuggestPlanet, aFlightWithoutANameIsCalledAsItsFile) {
-    SuggestRequest request = requestOf("10 M triangles");
-    const std::filesystem::path unnamed = folder_->path() / "low_pass.toml";
-    std::ofstream(unnamed) << tests::contentOf(flight()).substr(std::string("name = \"Down\"\n").size());
-    request.flights = {flight(), unnamed};
-    const SuggestOutcome outcome = suggest(request);
-    EXPECT_EQ(outcome.legs, (std::vector<std::string>{"Down", "low pass"}));
-}
-
 TEST_F(SuggestPlanet, viewsThatTheDiskNeverLoadsMeetNoBudget) {
     SuggestRequest request = requestOf("12 k triangles");
     request.flights.clear();
@@ -283,6 +257,39 @@ TEST_F(SuggestPlanet, aFastDiskSettlesEveryView) {
     EXPECT_TRUE(outcome.isMet);
     EXPECT_EQ(outcome.measured.figures.unsettled, 0u);
     EXPECT_THAT(verdictText(outcome), Not(HasSubstr("not loaded")));
+}
+
+TEST_F(SuggestPlanet, theCommandInTheReportNamesTheSuggestedBakeAndQuotesNames) {
+    SuggestRequest request = requestOf("10 M triangles");
+    SuggestOutcome outcome = suggest(request);
+    outcome.file = "out/planet of 17.chk";
+    EXPECT_THAT(
+        suggestMarkdown(outcome, request, "my best", false),
+        HasSubstr("`worldy shot 'out/planet of 17.chk' --settings 'my best.toml' -o shot.png` draws"));
+    outcome.regionsText = "regions";
+    EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
+                HasSubstr("`worldy shot 'out/planet of 17.chk' --settings best.toml --regions "
+                          "best.regions.toml -o shot.png` draws"));
+    request.presetFile = "a b/best.toml";
+    request.regionsFile = "a b/best.regions.toml";
+    EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
+                HasSubstr("--settings 'a b/best.toml' --regions 'a b/best.regions.toml' -o shot.png` draws"));
+}
+
+TEST_F(SuggestPlanet, aFlightWithoutANameIsCalledAsItsFile) {
+    SuggestRequest request = requestOf("10 M triangles");
+    const std::filesystem::path unnamed = folder_->path() / "low_pass.toml";
+    std::ofstream(unnamed) << tests::contentOf(flight()).substr(std::string("name = \"Down\"\n").size());
+    request.flights = {flight(), unnamed};
+    const SuggestOutcome outcome = suggest(request);
+    EXPECT_EQ(outcome.legs, (std::vector<std::string>{"Down", "low pass"}));
+}
+
+TEST(SuggestBudgets, anErrorListsEveryUnitThatIsKnown) {
+    const auto wrong = suggestBudgetFromText("3 furlongs");
+    ASSERT_FALSE(wrong);
+    EXPECT_THAT(wrong.error().message,
+                HasSubstr("ms, triangles, k triangles, M triangles, KiB, MiB, GiB, MB, GB or px"));
 }
 
 TEST_F(SuggestPlanet, theDrawnErrorBoundsTheTrueErrorForBothMetrics) {
