@@ -186,14 +186,22 @@ void revisitAtlas(AtlasController& controller, const ui::RevisitAtlas& revisit, 
     surveyNew(controller, std::move(request), notices);
 }
 
+// Returns whether a survey may take the name of a file. A killed survey leaves its reservation, which is empty.
+bool isFree(const std::filesystem::path& file) {
+    std::error_code status;
+    if (!std::filesystem::exists(file, status)) return !status;
+    return std::filesystem::is_regular_file(file, status) && std::filesystem::file_size(file, status) == 0 &&
+           !status;
+}
+
 void resumeAtlas(AtlasController& controller, const AtlasContext& context, Notices& notices) {
     if (!context.open || controller.job || !controller.atlas || controller.atlas->isFinished) return;
     AtlasFiles files{.output = planet::finishedAtlas(controller.file)};
     if (files.output == controller.files.output) files = controller.files;
-    std::error_code status;
-    if (std::filesystem::exists(files.output, status)) {
-        const std::string problem = fmt::format(
-            "{}: exists; expected no file of this name, which the survey gets", files.output.string());
+    if (!isFree(files.output)) {
+        const std::string problem =
+            fmt::format("{}: exists; expected no file of this name, or an empty one, which the survey gets",
+                        files.output.string());
         return tellError(notices, {"The survey was not continued", problem, ""});
     }
     Result<AtlasRequest> request =

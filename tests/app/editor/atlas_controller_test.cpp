@@ -3,10 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
+#include <thread>
 
+#include "app/base/places.h"
 #include "app/settings/settings_text.h"
+#include "planet/measure/atlas_file.h"
+#include "tests/app/session_fixture.h"
 
 namespace worldy {
 namespace {
@@ -89,6 +97,102 @@ TEST(AtlasComparisons, SurveysThatDoNotBelongTogetherAreRefusedWithWhatIsWrong) 
                   "same viewpoints as b.atlas"));
     other.viewpoints.pop_back();
     EXPECT_THAT(problemOf(other, now), HasSubstr("11 viewpoints cannot be compared with 12"));
+}
+
+class AtlasSurveysInTheWindow : public test::SessionTest {
+protected:
+    AtlasSurveysInTheWindow() {
+        const char* pictures = std::getenv("XDG_PICTURES_DIR");
+        if (pictures) oldPictures_ = pictures;
+        setenv("XDG_PICTURES_DIR", folder_.path().c_str(), 1);
+    }
+    ~AtlasSurveysInTheWindow() override {
+        if (oldPictures_.empty())
+            unsetenv("XDG_PICTURES_DIR");
+        else
+            setenv("XDG_PICTURES_DIR", oldPictures_.c_str(), 1);
+    }
+
+    void SetUp() override {
+        ASSERT_TRUE(advanceUntil(session_, [&] { return session_.open.has_value(); }));
+    }
+    void send(AtlasController& controller, const ui::AtlasCommand& command) {
+        const CameraContext cameraContext{nullptr, settingsOfWindow_.settings, popSide_, stepOnce_, false,
+                                          nullptr};
+        execute(controller, command, {&*session_.open, settingsOfWindow_, camera_, cameraContext}, notices_);
+    }
+    // Advances frames until a survey has ended.
+    void finish(AtlasController& controller) {
+        for (int i = 0; controller.job && i < 60'000; ++i) {
+            advanceAtlas(controller, log_);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        ASSERT_FALSE(controller.job);
+    }
+    // Surveys until some viewpoints are written, and returns the unfinished survey as a killed program leaves it.
+    std::filesystem::path killedSurvey() {
+        AtlasController controller;
+        send(controller, ui::StartAtlas{.viewpoints = viewpoints});
+        const auto isUnderWay = [&] {
+            const auto progress = controller.job->progress();
+            return progress && progress->done >= 2 * planet::atlasBatch;
+        };
+        for (int i = 0; !isUnderWay() && i < 10'000; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const std::filesystem::path part = planet::unfinishedAtlas(controller.files.output);
+        const std::filesystem::path killed = folder_ / "killed";
+        std::filesystem::create_directory(killed);
+        std::filesystem::copy(controller.files.output, killed);
+        std::filesystem::copy(part, killed);
+        send(controller, ui::CancelAtlas{});
+        finish(controller);
+        return killed / part.filename().string();
+    }
+
+    static constexpr std::uint64_t viewpoints = 600;
+    Session session_ = sessionOf(bakeTo("planet.chk", {.faceSize = 65, .chunkSize = 17}));
+    SettingsController settingsOfWindow_;
+    CameraController camera_;
+    PopSide popSide_{};
+    bool stepOnce_ = false;
+    Notices notices_{log_};
+
+private:
+    std::string oldPictures_;
+};
+
+TEST_F(AtlasSurveysInTheWindow, AKilledSurveyIsContinuedThoughItsEmptyReservationIsStillThere) {
+    const std::filesystem::path part = killedSurvey();
+    const std::filesystem::path finished = planet::finishedAtlas(part);
+    ASSERT_TRUE(std::filesystem::exists(finished));
+    ASSERT_EQ(std::filesystem::file_size(finished), 0u);
+    AtlasController controller;
+    send(controller, ui::OpenAtlas{part});
+    ASSERT_TRUE(controller.atlas);
+    const std::size_t before = controller.atlas->viewpoints.size();
+    EXPECT_GT(before, 0u);
+    EXPECT_LT(before, viewpoints);
+    send(controller, ui::ResumeAtlas{});
+    ASSERT_TRUE(controller.job) << notices_.message.text;
+    finish(controller);
+    EXPECT_EQ(controller.problem, "");
+    EXPECT_TRUE(controller.atlas->isFinished);
+    EXPECT_EQ(controller.file, finished);
+    EXPECT_EQ(planet::loadAtlas(finished)->viewpoints.size(), controller.atlas->viewpoints.size());
+    EXPECT_GT(controller.atlas->viewpoints.size(), before);
+    EXPECT_FALSE(std::filesystem::exists(part));
+}
+
+TEST_F(AtlasSurveysInTheWindow, AFileThatHoldsSomethingIsNeverReplacedByAContinuedSurvey) {
+    const std::filesystem::path part = killedSurvey();
+    const std::filesystem::path finished = planet::finishedAtlas(part);
+    std::ofstream(finished) << "mine";
+    AtlasController controller;
+    send(controller, ui::OpenAtlas{part});
+    send(controller, ui::ResumeAtlas{});
+    EXPECT_FALSE(controller.job);
+    EXPECT_THAT(notices_.message.text, HasSubstr("exists; expected no file of this name"));
+    EXPECT_EQ(tests::contentOf(finished), "mine");
 }
 
 }  // namespace
