@@ -58,6 +58,11 @@ Result<HeightSquare> finestHeights(const planet::ChunkFile& file, planet::Face f
     return square;
 }
 
+// Returns the row of a format that could not be used, with the reason.
+BenchRow missingRow(const std::string& subject, const std::string& problem) {
+    return {fmt::format("{} ({})", subject, problem), "per finest sample", "bits", {}};
+}
+
 // JPEG XL takes minutes to code the faces of a planet.
 constexpr std::array formatsOfFaces = {SquareFormat::Zstd, SquareFormat::ShuffledDeltas, SquareFormat::Png,
                                        SquareFormat::Jpeg2000};
@@ -65,14 +70,16 @@ constexpr std::array formatsOfFaces = {SquareFormat::Zstd, SquareFormat::Shuffle
 BenchRows planetRows(const BenchPlanet& planet, const std::filesystem::path& folder) {
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
     if (!file) return tl::unexpected(file.error());
-    std::array<std::size_t, formatsOfFaces.size()> sizes{};
+    std::array<StoredSquare, formatsOfFaces.size()> faces{};
     for (const planet::Face face : planet::allFaces) {
         const auto square = finestHeights(*file, face);
         if (!square) return tl::unexpected(square.error());
-        for (std::size_t i = 0; i < sizes.size(); ++i) {
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            if (!faces[i].problem.empty()) continue;
             const auto stored = storeSquare(formatsOfFaces[i], *square, folder, 0);
             if (!stored) return tl::unexpected(stored.error());
-            sizes[i] += stored->bytes;
+            faces[i].bytes += stored->bytes;
+            faces[i].problem = stored->problem;
         }
     }
     const double side = planet::faceCells(file->info().shape) + 1;
@@ -86,8 +93,13 @@ BenchRows planetRows(const BenchPlanet& planet, const std::filesystem::path& fol
         rows.push_back(std::move(row));
     };
     add("chunk file, all levels", file->sizeBytes());
-    for (std::size_t i = 0; i < sizes.size(); ++i)
-        if (sizes[i] > 0) add("finest level: " + nameOf(formatsOfFaces[i]), sizes[i]);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const std::string subject = "finest level: " + nameOf(formatsOfFaces[i]);
+        if (faces[i].problem.empty())
+            add(subject, faces[i].bytes);
+        else
+            rows.push_back(missingRow(subject, faces[i].problem));
+    }
     return rows;
 }
 
@@ -170,6 +182,7 @@ struct CodedRaster {
     std::string subject;
     std::size_t bytes = 0;
     std::vector<double> decodingCpuS;
+    std::string problem{};  // why another program has not coded it; empty otherwise
 };
 
 Result<CodedRaster> codedByUs(const HeightSquare& square, int chunkCells, int level, int rounds) {
@@ -204,7 +217,8 @@ Result<std::vector<CodedRaster>> allCodings(const HeightSquare& square, const st
     for (const SquareFormat format : formatsOfRasters) {
         auto stored = storeSquare(format, square, folder, rounds);
         if (!stored) return tl::unexpected(stored.error());
-        all.push_back({nameOf(format), stored->bytes, std::move(stored->decodingCpuS)});
+        all.push_back(
+            {nameOf(format), stored->bytes, std::move(stored->decodingCpuS), std::move(stored->problem)});
     }
     return all;
 }
@@ -219,8 +233,8 @@ Result<void> addRasterRows(const RasterWindow& window, const std::filesystem::pa
     const CodedRaster& ours = (*codings)[planet::maxCompressionLevel - 1];
     for (const CodedRaster& coded : *codings) {
         const std::string subject = fmt::format("{}: {}", window.name, coded.subject);
-        if (coded.bytes == 0) {
-            rows.push_back({subject + " (is not installed)", "per finest sample", "bits", {}});
+        if (!coded.problem.empty()) {
+            rows.push_back(missingRow(subject, coded.problem));
             continue;
         }
         const double bits = 8 * static_cast<double>(coded.bytes) / samples;

@@ -2,17 +2,23 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "app/base/picture_file.h"
+#include "planet/base/try.h"
 
 namespace worldy {
 
@@ -22,10 +28,28 @@ using planet::Result;
 
 constexpr int zstdLevel = 3;
 
-std::vector<char> zstdPacked(std::span<const std::byte> bytes) {
+Result<std::vector<char>> zstdPacked(std::span<const std::byte> bytes) {
     std::vector<char> packed(ZSTD_compressBound(bytes.size()));
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), zstdLevel));
+    const std::size_t size =
+        ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), zstdLevel);
+    if (ZSTD_isError(size)) return planet::ioError(fmt::format("zstd: {}", ZSTD_getErrorName(size)));
+    packed.resize(size);
     return packed;
+}
+
+Result<void> unpackZstd(std::span<const char> packed, std::span<std::uint8_t> bytes) {
+    const std::size_t size = ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
+    if (ZSTD_isError(size)) return planet::ioError(fmt::format("zstd: {}", ZSTD_getErrorName(size)));
+    if (size == bytes.size()) return {};
+    return planet::ioError(fmt::format("zstd: {} bytes decoded; expected {}", size, bytes.size()));
+}
+
+// A benchmark of a format that loses something would compare what cannot be compared.
+template <class A, class B>
+Result<void> checkLossless(SquareFormat format, const A& decoded, const B& samples) {
+    if (std::ranges::equal(decoded, samples)) return {};
+    return planet::ioError(
+        fmt::format("{}: the decoded samples differ; expected those that were stored", nameOf(format)));
 }
 
 // Returns the differences between samples, low bytes before high bytes, which zstd compresses well.
@@ -55,7 +79,7 @@ Result<std::vector<double>> timedRounds(int rounds, double (*clockS)(),
     std::vector<double> times;
     for (int round = 0; round < rounds; ++round) {
         const double start = clockS();
-        if (Result<void> decoded = decode(); !decoded) return tl::unexpected(decoded.error());
+        TRY(decode());
         times.push_back(clockS() - start);
     }
     return times;
@@ -64,18 +88,20 @@ Result<std::vector<double>> timedRounds(int rounds, double (*clockS)(),
 Result<StoredSquare> storeZstd(const HeightSquare& square, bool shuffled, int rounds) {
     const std::span steps(square.steps);
     const std::vector<std::uint8_t> deltas = shuffled ? shuffledDeltas(steps) : std::vector<std::uint8_t>{};
-    const std::vector<char> packed =
-        zstdPacked(shuffled ? std::as_bytes(std::span(deltas)) : std::as_bytes(steps));
+    TRY_ASSIGN(const std::vector<char> packed,
+               zstdPacked(shuffled ? std::as_bytes(std::span(deltas)) : std::as_bytes(steps)));
     std::vector<std::int16_t> decoded(steps.size());
     std::vector<std::uint8_t> bytes(2 * steps.size());
     const auto decode = [&]() -> Result<void> {
-        ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
+        TRY(unpackZstd(packed, bytes));
         if (shuffled) undoShuffledDeltas(bytes, decoded);
         return {};
     };
-    auto times = timedRounds(rounds, threadCpuS, decode);
-    if (!times) return tl::unexpected(times.error());
-    return StoredSquare{packed.size(), *std::move(times)};
+    TRY(decode());
+    if (!shuffled) std::memcpy(decoded.data(), bytes.data(), bytes.size());
+    TRY(checkLossless(shuffled ? SquareFormat::ShuffledDeltas : SquareFormat::Zstd, decoded, steps));
+    TRY_ASSIGN(std::vector<double> times, timedRounds(rounds, threadCpuS, decode));
+    return StoredSquare{packed.size(), std::move(times)};
 }
 
 std::vector<std::uint16_t> greyOf(const HeightSquare& square) {
@@ -86,24 +112,54 @@ std::vector<std::uint16_t> greyOf(const HeightSquare& square) {
     return grey;
 }
 
-Result<StoredSquare> storePng(const HeightSquare& square, const std::filesystem::path& folder, int rounds) {
-    const std::filesystem::path file = folder / "square.png";
-    if (Result<void> written = writeGrey16(square.side, greyOf(square), file); !written)
-        return tl::unexpected(written.error());
-    auto times = timedRounds(rounds, threadCpuS, [&]() -> Result<void> {
-        const auto read = readGrey16(file);
-        if (!read) return tl::unexpected(read.error());
-        return {};
-    });
-    if (!times) return tl::unexpected(times.error());
-    return StoredSquare{static_cast<std::size_t>(std::filesystem::file_size(file)), *std::move(times)};
+Result<std::size_t> bytesOf(const std::filesystem::path& file) {
+    std::error_code status;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, status);
+    if (status) return planet::ioError(fmt::format("{}: {}", file.string(), status.message()));
+    return static_cast<std::size_t>(bytes);
 }
 
-void writePgm(const HeightSquare& square, const std::filesystem::path& file) {
+Result<StoredSquare> storePng(const HeightSquare& square, const std::filesystem::path& folder, int rounds) {
+    const std::filesystem::path file = folder / "square.png";
+    const std::vector<std::uint16_t> grey = greyOf(square);
+    TRY(writeGrey16(square.side, grey, file));
+    TRY_ASSIGN(const Grey16 decoded, readGrey16(file));
+    TRY(checkLossless(SquareFormat::Png, decoded.samples, grey));
+    TRY_ASSIGN(std::vector<double> times, timedRounds(rounds, threadCpuS, [&]() -> Result<void> {
+                   TRY(readGrey16(file));
+                   return {};
+               }));
+    TRY_ASSIGN(const std::size_t bytes, bytesOf(file));
+    return StoredSquare{bytes, std::move(times)};
+}
+
+Result<void> writePgm(const HeightSquare& square, const std::filesystem::path& file) {
     std::ofstream pgm(file, std::ios::binary);
     pgm << fmt::format("P5\n{} {}\n65535\n", square.side, square.side);
     for (const std::uint16_t value : greyOf(square))
         pgm.put(static_cast<char>(value >> 8)).put(static_cast<char>(value & 0xFF));
+    pgm.close();
+    if (pgm) return {};
+    return planet::ioError(fmt::format("{}: cannot be written; expected room on the disk", file.string()));
+}
+
+// Returns the samples of a PGM of 16 bits, which the other programs write; nothing if it is none.
+std::vector<std::uint16_t> samplesOfPgm(const std::filesystem::path& file) {
+    std::ifstream pgm(file, std::ios::binary);
+    const auto word = [&] {
+        std::string text;
+        while (pgm >> text && text.starts_with('#')) std::getline(pgm, text);  // a comment
+        return text;
+    };
+    const std::string magic = word(), width = word(), height = word(), most = word();
+    pgm.get();  // the one white space before the samples
+    std::vector<std::uint16_t> samples;
+    if (magic != "P5" || most != "65535") return samples;
+    std::array<char, 2> bytes{};
+    while (pgm.read(bytes.data(), bytes.size()))
+        samples.push_back(static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[0]) << 8 |
+                                                     static_cast<unsigned char>(bytes[1])));
+    return samples;
 }
 
 // The command lines of another program; {} stands for the files.
@@ -113,24 +169,40 @@ struct OtherProgram {
     const char* decode;  // to a PGM
 };
 
-bool runs(const std::string& command) {
-    return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
+// Runs a command. Returns nothing if it succeeds; otherwise what is wrong, with the last line that it printed.
+std::optional<std::string> problemOfRunning(const std::string& command, const std::filesystem::path& log) {
+    const std::string program = command.substr(0, command.find(' '));
+    const int status = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());
+    if (status == 0) return std::nullopt;
+    constexpr int notFound = 127;  // of the shell
+    const bool hasExited = status != -1 && WIFEXITED(status);
+    if (hasExited && WEXITSTATUS(status) == notFound) return fmt::format("{} is not installed", program);
+    std::string line, last;
+    for (std::ifstream lines(log); std::getline(lines, line);)
+        if (!line.empty()) last = line;
+    const std::string how = hasExited ? fmt::format("exit code {}", WEXITSTATUS(status)) : "a signal";
+    return fmt::format("{} ended with {}: {}", program, how, last.empty() ? "no message" : last);
 }
 
-// Returns 0 bytes if the program is not installed.
-Result<StoredSquare> storeWith(const OtherProgram& program, const HeightSquare& square,
+Result<StoredSquare> storeWith(SquareFormat format, const OtherProgram& program, const HeightSquare& square,
                                const std::filesystem::path& folder, int rounds) {
     const std::string input = (folder / "square.pgm").string();
     const std::string stored = (folder / "square").string() + program.extension;
     const std::string output = (folder / "decoded.pgm").string();
-    writePgm(square, input);
-    if (!runs(fmt::format(fmt::runtime(program.encode), input, stored))) return StoredSquare{};
-    auto times = timedRounds(rounds, childrenCpuS, [&]() -> Result<void> {
-        if (runs(fmt::format(fmt::runtime(program.decode), stored, output))) return {};
-        return planet::ioError(fmt::format("{}: cannot be decoded again", stored));
-    });
-    if (!times) return tl::unexpected(times.error());
-    return StoredSquare{static_cast<std::size_t>(std::filesystem::file_size(stored)), *std::move(times)};
+    const std::filesystem::path log = folder / "log.txt";
+    TRY(writePgm(square, input));
+    if (auto problem = problemOfRunning(fmt::format(fmt::runtime(program.encode), input, stored), log))
+        return StoredSquare{.problem = *std::move(problem)};
+    const auto decode = [&]() -> Result<void> {
+        const auto problem = problemOfRunning(fmt::format(fmt::runtime(program.decode), stored, output), log);
+        if (!problem) return {};
+        return planet::ioError(fmt::format("{}: cannot be decoded again: {}", stored, *problem));
+    };
+    TRY(decode());
+    TRY(checkLossless(format, samplesOfPgm(output), greyOf(square)));
+    TRY_ASSIGN(std::vector<double> times, timedRounds(rounds, childrenCpuS, decode));
+    TRY_ASSIGN(const std::size_t bytes, bytesOf(stored));
+    return StoredSquare{bytes, std::move(times)};
 }
 
 constexpr OtherProgram openJpeg = {".j2k", "opj_compress -r 1 -i '{}' -o '{}'",
@@ -173,14 +245,16 @@ Result<StoredSquare> storeSquare(SquareFormat format, const HeightSquare& square
         case SquareFormat::Png:
             return storePng(square, folder, decodingRounds);
         case SquareFormat::Jpeg2000: {
-            Result<StoredSquare> stored = storeWith(openJpeg, square, folder, decodingRounds);
-            if (!stored || stored->bytes > 0) return stored;
-            return storeWith(gdalJpeg2000, square, folder, decodingRounds);
+            TRY_ASSIGN(StoredSquare stored, storeWith(format, openJpeg, square, folder, decodingRounds));
+            if (stored.problem.empty()) return stored;
+            TRY_ASSIGN(StoredSquare other, storeWith(format, gdalJpeg2000, square, folder, decodingRounds));
+            if (!other.problem.empty()) other.problem = fmt::format("{}; {}", stored.problem, other.problem);
+            return other;
         }
         case SquareFormat::JpegXl:
             break;
     }
-    return storeWith(jpegXl, square, folder, decodingRounds);
+    return storeWith(format, jpegXl, square, folder, decodingRounds);
 }
 
 double threadCpuS() {

@@ -21,12 +21,14 @@ enum class SquareFormat : std::uint8_t { Zstd, ShuffledDeltas, Png, Jpeg2000, Jp
 std::string nameOf(SquareFormat format);
 
 struct StoredSquare {
-    std::size_t bytes = 0;             // 0: the program for the format is not installed
-    std::vector<double> decodingCpuS;  // of each round; of another program, its start included
+    std::size_t bytes = 0;               // 0: another program could not store it
+    std::vector<double> decodingCpuS{};  // of each round; of another program, its start included
+    std::string problem{};               // why there are no bytes: "cjxl is not installed", or what it said
 };
 
-// Stores a square without loss, and reads it again in a number of rounds. PNG is written by OpenImageIO, JPEG 2000 by
-// opj_compress or gdal_translate, JPEG XL by cjxl (-d 0 -e 7). folder: for temporary files.
+// Stores a square without loss, decodes it once to compare it, and then again in a number of rounds. PNG is written by
+// OpenImageIO, JPEG 2000 by opj_compress or gdal_translate, JPEG XL by cjxl (-d 0 -e 7). folder: for temporary files. The
+// Error says what cannot be written or decoded, or that the decoded samples are not those of the square.
 planet::Result<StoredSquare> storeSquare(SquareFormat format, const HeightSquare& square,
                                          const std::filesystem::path& folder, int decodingRounds);
 
