@@ -188,8 +188,9 @@ public:
     }
     std::uint64_t varint() {
         if (!ok()) return 0;
-        const std::optional<std::uint64_t> value = in_.getVariable();
-        if (!value) fail(atEnd() ? "truncated" : "number too large");
+        const auto value = in_.getVariable();
+        if (!value)
+            fail(value.error() == planet::VariableProblem::Truncated ? "truncated" : "number out of range");
         return value.value_or(0);
     }
     // Reads the number of elements that take at least bytesEach each.

@@ -7,8 +7,8 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <tl/expected.hpp>
 #include <type_traits>
 #include <vector>
 
@@ -78,6 +78,10 @@ private:
     std::vector<std::byte>& out_;
 };
 
+// Why a number of ByteWriter::putVariable cannot be read: the bytes end before it does; or it exceeds 64 bits, or takes
+// more bytes than the writer would use.
+enum class VariableProblem : std::uint8_t { Truncated, OutOfRange };
+
 // Reads numbers one after the other. The caller has checked that there are enough bytes.
 class ByteReader {
 public:
@@ -89,22 +93,25 @@ public:
         return readLittleEndian<T>(take(sizeof(T)).data());
     }
 
-    // Return a number of ByteWriter::putVariable and putVariableSigned; nothing if it ends early or exceeds 64 bits.
-    std::optional<std::uint64_t> getVariable() {
+    // Return a number of ByteWriter::putVariable and putVariableSigned. Each number has one code, so that readers which see
+    // a different part of the bytes that follow agree.
+    tl::expected<std::uint64_t, VariableProblem> getVariable() {
         std::uint64_t value = 0;
-        for (int shift = 0; shift < 64 && !bytes_.empty(); shift += 7) {
+        for (int shift = 0; shift < 64; shift += 7) {
+            if (bytes_.empty()) return tl::unexpected(VariableProblem::Truncated);
             const auto group = get<std::uint8_t>();
             const std::uint64_t bits = group & 127u;
-            if (bits << shift >> shift != bits) return std::nullopt;
+            const bool isNeedless = group == 0 && shift > 0;
+            if (isNeedless || bits << shift >> shift != bits) break;
             value |= bits << shift;
             if (group < 128) return value;
         }
-        return std::nullopt;
+        return tl::unexpected(VariableProblem::OutOfRange);
     }
 
-    std::optional<std::int64_t> getVariableSigned() {
+    tl::expected<std::int64_t, VariableProblem> getVariableSigned() {
         const auto coded = getVariable();
-        if (!coded) return std::nullopt;
+        if (!coded) return tl::unexpected(coded.error());
         const std::uint64_t bits = *coded >> 1;
         return static_cast<std::int64_t>((*coded & 1) == 0 ? bits : ~bits);
     }

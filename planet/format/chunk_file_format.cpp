@@ -189,17 +189,24 @@ std::uint64_t distanceFrom(std::span<const std::byte> bytes) {
 Result<ChunkEntry> entryFrom(ByteReader& in, std::uint64_t blockOffset) {
     const auto tooSmall = [] { return badInput("it is too small for its index"); };
     const auto outOfRange = [] { return badInput("its index entry is out of range"); };
+    const auto unread = [&](VariableProblem problem) {
+        return problem == VariableProblem::Truncated ? tooSmall() : outOfRange();
+    };
     ChunkEntry entry;
     if (in.rest().size() < 2 * sizeof(float)) return tooSmall();
     entry.deltaCM = in.get<float>();
     entry.deltaTightM = in.get<float>();
+    // Each number is checked before the next one is read, so that no entry needs more than largestEntryBytes to be refused.
     const auto lowest = in.getVariableSigned();
+    if (!lowest) return unread(lowest.error());
+    if (!isInt32(*lowest)) return outOfRange();
     const auto range = in.getVariableSigned();
+    if (!range) return unread(range.error());
+    if (*range < -widestRange || *range > widestRange || !isInt32(*lowest + *range)) return outOfRange();
     const auto size = in.getVariable();
-    if (!lowest || !range || !size || in.rest().size() < distanceBytes) return tooSmall();
-    if (!isInt32(*lowest) || *range < -widestRange || *range > widestRange || !isInt32(*lowest + *range) ||
-        *size > std::numeric_limits<std::uint32_t>::max())
-        return outOfRange();
+    if (!size) return unread(size.error());
+    if (*size > std::numeric_limits<std::uint32_t>::max()) return outOfRange();
+    if (in.rest().size() < distanceBytes) return tooSmall();
     entry.minStep = static_cast<std::int32_t>(*lowest);
     entry.maxStep = static_cast<std::int32_t>(*lowest + *range);
     entry.children.size = static_cast<std::uint32_t>(*size);

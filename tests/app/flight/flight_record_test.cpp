@@ -518,6 +518,15 @@ TEST_F(FlightRecordTest, CutOffOrDamagedItIsAnErrorThatNamesTheFile) {
     EXPECT_THAT(errorOf(fileOf(contentOf(file) + "x")), HasSubstr("data after the end"));
 }
 
+TEST_F(FlightRecordTest, ANumberThatIsTooLargeOrTooLongIsNotSaidToBeCutOff) {
+    // The first number of a recording is the length of its name.
+    const std::string tooLarge = std::string(9, '\xFF') + '\x02';
+    EXPECT_THAT(errorOf(fileOf(tooLarge)), HasSubstr("number out of range"));
+    EXPECT_THAT(errorOf(fileOf(std::string("\x80\0", 2))), HasSubstr("number out of range"));
+    EXPECT_THAT(errorOf(fileOf("\x80")), HasSubstr("truncated"));
+    EXPECT_THAT(errorOf(fileOf("")), HasSubstr("truncated"));
+}
+
 // With the right checksum: each byte may be anything.
 TEST_F(FlightRecordTest, WhateverItHoldsItIsReadOrRefused) {
     const auto planet = openPlanet(troubled(true));

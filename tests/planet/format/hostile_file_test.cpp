@@ -10,6 +10,7 @@
 
 #include "planet/bake/colour_report.h"
 #include "planet/bake/file_report.h"
+#include "planet/base/little_endian.h"
 #include "planet/format/height_codec.h"
 #include "planet/planet.h"
 #include "planet/source/height_source.h"
@@ -149,6 +150,42 @@ TEST(HostileFile, AnIndexOfMoreThanFourChunksIsRefused) {
     const auto entries = chunks->readEntries({Face::PosX, 0, 0, 0}, block);
     ASSERT_FALSE(entries);
     EXPECT_THAT(entries.error().message, HasSubstr("names chunks that it does not hold"));
+}
+
+// Such numbers would make an index longer than what readEntries reads of a block.
+TEST(HostileFile, NumbersThatAreLongerThanTheyNeedToBeAreRefusedByBothReaders) {
+    HostileFile file;
+    const BlockLocation children = file.add(Bytes(200));
+    const auto zeroOfTenBytes = [](Bytes& to) {
+        to.insert(to.end(), 9, std::byte{0x80});
+        to.push_back(std::byte{0});
+    };
+    Bytes content = {std::byte{0b1111}};
+    ByteWriter out(content);
+    for (int q = 0; q < quadrantCount; ++q) {
+        out.put(1.0f);
+        out.put(1.0f);
+        zeroOfTenBytes(content);  // lowest step
+        zeroOfTenBytes(content);  // range of steps
+        out.putVariable(children.size);
+        out.put(static_cast<std::uint32_t>(file.bytes.size() - children.offset));
+        out.put(std::uint16_t{0});
+    }
+    const std::vector<std::int32_t> flat(static_cast<std::size_t>(chunkVertexCount(file.info.shape)));
+    const auto side = static_cast<std::size_t>(2 * chunkCells(file.info.shape) + 1);
+    encodeRefinement(std::vector<std::int32_t>(side * side), chunkCells(file.info.shape), 1, 0, content);
+    ASSERT_GT(content.size(), largestIndexBytes);
+    const BlockLocation block = file.add(content);
+    file.addRoots({1, 1, 0, 0, block});
+    const auto chunks = opened(file.sealed());
+    ASSERT_TRUE(chunks) << chunks.error().message;
+    const ChunkId root{Face::NegZ, 0, 0, 0};  // the last one, whose key seals the block that all share
+    const auto read = chunks->readChildren(root, block, flat);
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr("its index entry is out of range"));
+    const auto entries = chunks->readEntries(root, block);
+    ASSERT_FALSE(entries);
+    EXPECT_EQ(entries.error().message, read.error().message);
 }
 
 TEST(HostileFile, ChildrenBelowTheDeepestLevelAreRefused) {
