@@ -10,6 +10,7 @@
 
 #include "planet/format/chunk_file_format.h"
 #include "planet/format/height_codec.h"
+#include "planet/format/height_rows.h"
 
 namespace worldy {
 
@@ -17,16 +18,12 @@ namespace {
 
 using planet::ChunkEntry;
 
-// Returns every step-th sample of a square of size samples a side.
+// Returns size * size samples of a square, every step-th one from a place on.
 std::vector<std::int32_t> thinnedSquare(const HeightSquare& square, int x0, int y0, int size, int step) {
-    std::vector<std::int32_t> samples;
-    samples.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x)
-            samples.push_back(
-                square.steps[static_cast<std::size_t>(y0 + y * step) * static_cast<std::size_t>(square.side) +
-                             static_cast<std::size_t>(x0 + x * step)]);
-    return samples;
+    const std::size_t first =
+        static_cast<std::size_t>(y0) * static_cast<std::size_t>(square.side) + static_cast<std::size_t>(x0);
+    return planet::thinned<std::int16_t, std::int32_t>(std::span(square.steps).subspan(first), square.side,
+                                                       size, step);
 }
 
 class PyramidWriter {

@@ -215,19 +215,7 @@ private:
             residualWidths(expected, shift, widths);
             return residualsCost(residuals, widths, parameters.shape) + parametersCost(shifted, pass_);
         };
-        std::int64_t best = cost(parameters.widthShift);
-        for (const int direction : {-1, 1}) {
-            const int before = parameters.widthShift;
-            while (parameters.widthShift + direction >= minWidthShift &&
-                   parameters.widthShift + direction <= maxWidthShift) {
-                const std::int64_t next = cost(parameters.widthShift + direction);
-                if (next >= best) break;
-                best = next;
-                parameters.widthShift += direction;
-            }
-            if (parameters.widthShift != before) break;
-        }
-        return best;
+        return descendShift(cost, parameters.widthShift);
     }
 
     FittedPredictor& predictor_;
@@ -303,12 +291,8 @@ TriedPass bestPass(FittedPredictor& predictor, RefinementPass pass, std::span<co
 
 void encodeFitted(std::span<const std::int16_t> fine, int coarseCells, std::vector<std::byte>& out) {
     assert(coarseCells >= minFittedCells && coarseCells < static_cast<int>(maxRowSamples));
-    std::vector<std::int16_t> coarse;
-    const auto side = static_cast<std::size_t>(2 * coarseCells + 1);
-    for (std::size_t y = 0; y < side; y += 2)
-        for (std::size_t x = 0; x < side; x += 2) coarse.push_back(fine[y * side + x]);
     FittedPredictor predictor(coarseCells);
-    predictor.setCoarse(coarse);
+    predictor.setCoarse(thinned(fine, 2 * coarseCells + 1, coarseCells + 1, 2));
     ResidualEncoder encoder(missingSamples(coarseCells) + passCount * (parameterCount + maxPredictionTerms),
                             fittedStates);
     for (const RefinementPass pass : allRefinementPasses) {

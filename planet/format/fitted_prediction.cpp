@@ -232,11 +232,6 @@ void continuePlane(BorderedPlane& plane) {
         }
 }
 
-// Returns the value halfway between b and c of four consecutive values, on the cubic through all of them.
-std::int32_t cubicHalfway(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
-    return (9 * (b + c) - a - d + 8) >> 4;
-}
-
 }  // namespace
 
 int predictionTermCount(RefinementPass pass) {

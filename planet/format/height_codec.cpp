@@ -123,23 +123,6 @@ Effort effortOf(int compressionLevel) {
     return efforts[static_cast<std::size_t>(compressionLevel - 1)];
 }
 
-// Descends from a shift to the minimum of the cost, which is unique.
-std::int64_t bestShift(const CodedPass& coded, std::size_t step, int& widthShift) {
-    CostSamples samples(coded, step);
-    std::int64_t best = samples.cost(widthShift);
-    for (const int direction : {-1, 1}) {
-        const int before = widthShift;
-        while (widthShift + direction >= minWidthShift && widthShift + direction <= maxWidthShift) {
-            const std::int64_t cost = samples.cost(widthShift + direction);
-            if (cost >= best) break;
-            best = cost;
-            widthShift += direction;
-        }
-        if (widthShift != before) break;
-    }
-    return best;
-}
-
 struct ChosenPass {
     PassChoice choice;
     CodedPass coded;
@@ -152,7 +135,9 @@ ChosenPass choosePass(RefinementPredictor& predictor, RefinementPass pass, std::
     int shift = 0;
     for (int candidate = 0; candidate < effort.predictors; ++candidate) {
         CodedPass coded = predictPass(predictor, pass, candidate, fine, coarseCells);
-        const std::int64_t cost = bestShift(coded, effort.step, shift);
+        CostSamples samples(coded, effort.step);
+        const std::int64_t cost =
+            descendShift([&](int widthShift) { return samples.cost(widthShift); }, shift);
         if (cost < least) {
             least = cost;
             chosen = {{candidate, shift}, std::move(coded)};
@@ -174,21 +159,10 @@ void addPass(const CodedPass& coded, std::size_t columns, int widthShift, Residu
         encoder.addRow(std::span(coded.residuals).subspan(i, columns), std::span(widths).subspan(i, columns));
 }
 
-// Returns every step-th row and column of a grid.
-template <class Sample>
-std::vector<Sample> thinned(std::span<const Sample> grid, int size, int step) {
-    const auto side = static_cast<std::size_t>(size);
-    const auto stride = static_cast<std::size_t>(step);
-    std::vector<Sample> samples;
-    for (std::size_t y = 0; y < side; y += stride)
-        for (std::size_t x = 0; x < side; x += stride) samples.push_back(grid[y * side + x]);
-    return samples;
-}
-
 void encodeEntropy(std::span<const std::int16_t> fine, int coarseCells, int compressionLevel, int shift,
                    std::vector<std::byte>& out) {
     RefinementPredictor predictor(coarseCells);
-    predictor.setCoarse(thinned<std::int16_t>(fine, 2 * coarseCells + 1, 2));
+    predictor.setCoarse(thinned(fine, 2 * coarseCells + 1, coarseCells + 1, 2));
     ResidualEncoder encoder(missingSamples(coarseCells));
     out.push_back(firstByte(Storage::Entropy, shift));
     for (const RefinementPass pass : allRefinementPasses) {
@@ -502,7 +476,7 @@ void encodeRefinement(std::span<const std::int32_t> fine, int coarseCells, int c
     assert(coarseCells >= 1 && coarseCells <= maxCoarseCells);
     assert(compressionLevel >= minCompressionLevel && compressionLevel <= maxCompressionLevel);
     assert(fine.size() == gridSamples(2 * coarseCells));
-    const std::vector<std::int32_t> coarse = thinned(fine, 2 * coarseCells + 1, 2);
+    const std::vector<std::int32_t> coarse = thinned(fine, 2 * coarseCells + 1, coarseCells + 1, 2);
     const int shift = sharedShift(fine, fractionBits);
     const std::size_t before = out.size();
     const auto narrowing = narrowingOf(fine, coarse, shift);
@@ -579,7 +553,7 @@ std::size_t cornerBytes(int fractionBits) {
 void encodeGrid(std::span<const std::int32_t> grid, int size, int fractionBits, std::vector<std::byte>& out) {
     assert(isGridSize(size) && grid.size() == gridSamples(size - 1));
     ByteWriter writer(out);
-    for (const std::int32_t corner : thinned(grid, size, size - 1)) {
+    for (const std::int32_t corner : thinned(grid, size, 2, size - 1)) {
         if (fractionBits == 0)
             writer.put(static_cast<std::int16_t>(corner));
         else
@@ -587,8 +561,8 @@ void encodeGrid(std::span<const std::int32_t> grid, int size, int fractionBits, 
     }
     for (int cells = 1; cells < size - 1; cells *= 2) {
         std::vector<std::byte> coded;
-        encodeRefinement(thinned(grid, size, (size - 1) / (2 * cells)), cells, maxCompressionLevel,
-                         fractionBits, coded);
+        encodeRefinement(thinned(grid, size, 2 * cells + 1, (size - 1) / (2 * cells)), cells,
+                         maxCompressionLevel, fractionBits, coded);
         writer.put(static_cast<std::uint32_t>(coded.size()));
         out.insert(out.end(), coded.begin(), coded.end());
     }

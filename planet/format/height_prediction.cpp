@@ -98,11 +98,6 @@ std::int32_t beyondEdge(std::int32_t edge, std::int32_t inner, BeyondEdge beyond
     return 2 * edge - inner;
 }
 
-// Returns the value halfway between b and c of four consecutive values, on the cubic through all of them.
-std::int32_t halfway(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
-    return (9 * (b + c) - a - d + 8) >> 4;
-}
-
 // Repeats a plane's outermost cells into its border.
 void holdBorder(BorderedPlane& plane) {
     const int columns = plane.columns;
@@ -133,10 +128,11 @@ void extendMiddle(BorderedPlane& middle, const BorderedPlane& coarse, BeyondEdge
     const int cells = middle.rows;
     const auto edgeInRow = [&](int y, int x) {
         const std::int32_t* const k = coarse.row(y) + x;
-        return halfway(k[-1], k[0], k[1], k[2]);
+        return cubicHalfway(k[-1], k[0], k[1], k[2]);
     };
     const auto edgeInColumn = [&](int y, int x) {
-        return halfway(coarse.row(y - 1)[x], coarse.row(y)[x], coarse.row(y + 1)[x], coarse.row(y + 2)[x]);
+        return cubicHalfway(coarse.row(y - 1)[x], coarse.row(y)[x], coarse.row(y + 1)[x],
+                            coarse.row(y + 2)[x]);
     };
     for (int i = 0; i < cells; ++i) {
         middle.row(-1)[i] = beyondEdge(edgeInRow(0, i), middle.row(0)[i], beyond);

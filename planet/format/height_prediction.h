@@ -50,6 +50,11 @@ private:
     int startOf(int y) const { return (y + border) * (columns + 2 * border) + border; }
 };
 
+// Returns the value halfway between b and c of four consecutive values, on the cubic through all of them.
+inline std::int32_t cubicHalfway(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+    return (9 * (b + c) - a - d + 8) >> 4;
+}
+
 // Holds the known samples and errors of one block, for the encoder and the decoder.
 class RefinementPredictor {
 public:

@@ -1,10 +1,12 @@
-// Places of the samples that a refinement adds in the fine grid, and memory for one row of them. Internal to the codec.
+// Places of the samples that a refinement adds in the fine grid, memory for one row of them, and what the encoders share.
+// Internal to the codec.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "planet/format/height_prediction.h"
 
@@ -40,6 +42,36 @@ inline constexpr std::array<PassLayout, passCount> passLayouts = {{{1, 1}, {1, 0
 inline std::size_t rowStart(RefinementPass pass, int row, int coarseCells) {
     const PassLayout layout = passLayouts[static_cast<std::size_t>(pass)];
     return static_cast<std::size_t>((layout.firstRow + 2 * row) * (2 * coarseCells + 1) + layout.firstColumn);
+}
+
+// Returns size * size samples of a grid, every step-th one of a row and of a column. rowSamples: of the grid. The first
+// sample of the grid is the first one of the result.
+template <class From, class To = From>
+std::vector<To> thinned(std::span<const From> grid, int rowSamples, int size, int step) {
+    std::vector<To> samples;
+    samples.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            samples.push_back(grid[static_cast<std::size_t>(y * step) * static_cast<std::size_t>(rowSamples) +
+                                   static_cast<std::size_t>(x * step)]);
+    return samples;
+}
+
+// Descends from a width shift to the minimum of costOf(shift), which is unique, and returns that cost.
+template <class Cost>
+std::int64_t descendShift(const Cost& costOf, int& widthShift) {
+    std::int64_t best = costOf(widthShift);
+    for (const int direction : {-1, 1}) {
+        const int before = widthShift;
+        while (widthShift + direction >= minWidthShift && widthShift + direction <= maxWidthShift) {
+            const std::int64_t next = costOf(widthShift + direction);
+            if (next >= best) break;
+            best = next;
+            widthShift += direction;
+        }
+        if (widthShift != before) break;
+    }
+    return best;
 }
 
 // Memory for one row of a pass.
