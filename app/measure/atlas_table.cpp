@@ -102,6 +102,21 @@ bool hasMeasure(const planet::Atlas& atlas, AtlasMeasure measure) {
     });
 }
 
+// A view that is not sharp in time has no time until it is, so no limit on that can be told to be met.
+Result<void> checkAllSharp(const planet::AtlasLimit& limit, const planet::Atlas& before,
+                           const planet::Atlas& now) {
+    for (const auto& [atlas, name] : {std::pair(&before, "earlier"), std::pair(&now, "present")}) {
+        const auto unsharp = std::ranges::count_if(atlas->viewpoints, [](const AtlasViewpoint& one) {
+            return std::isnan(planet::figureOf(one.figures, AtlasMeasure::SharpS));
+        });
+        if (unsharp == 0) continue;
+        return planet::badInput(fmt::format(
+            "{}: {} of {} viewpoints of the {} survey are not sharp within {:g} s; expected a faster disk",
+            planet::textOf(limit), unsharp, atlas->viewpoints.size(), name, planet::atlasTimeoutS));
+    }
+    return {};
+}
+
 Result<AtlasVerdict> verdictOf(const planet::AtlasLimit& limit, const AtlasDiff& diff,
                                const planet::Atlas& before, const planet::Atlas& now) {
     AtlasVerdict verdict{limit, {}, true};
@@ -112,6 +127,9 @@ Result<AtlasVerdict> verdictOf(const planet::AtlasLimit& limit, const AtlasDiff&
         verdict.isMet = !planet::isExceeded(limit, 0, static_cast<double>(diff.chunks.size()));
         return verdict;
     }
+    const bool needsSharpViews =
+        limit.measure == AtlasMeasure::SharpS || limit.measure == AtlasMeasure::BytesRead;
+    if (needsSharpViews) TRY(checkAllSharp(limit, before, now));
     if (!hasMeasure(before, *limit.measure) || !hasMeasure(now, *limit.measure)) {
         return planet::badInput(fmt::format(
             "{}: is not measured in both surveys; expected both with --true-error", planet::textOf(limit)));

@@ -41,9 +41,14 @@ inline constexpr std::array<AtlasMeasureText, atlasMeasureCount> atlasMeasureTex
      "distance to the chunk's bounds, as where the eye is inside them."},
     {"drawn_bound_px", "Drawn bound", "px", "Largest bound of the error of what is drawn, with its morph."},
     {"triangles", "Triangles", "", "Drawn triangles, skirts included."},
-    {"bytes_read", "Bytes read", "B", "Bytes read until the view is sharp, from the roots alone."},
+    {"bytes_read", "Bytes read", "B",
+     "Bytes read until the view is sharp, from the roots alone. They are not known of a view that is not "
+     "sharp within an "
+     "hour."},
     {"sharp_s", "Time until sharp", "s",
-     "Time of the simulated disk until everything that the view wants is there, from the roots alone."},
+     "Time of the simulated disk until everything that the view wants is there, from the roots alone. It is "
+     "not known "
+     "of a view that is not sharp within an hour."},
     {"pop_px", "Largest pop", "px", "Largest jump of the surface at a level change of the standard move."},
     {"thrashes", "Thrashes", "",
      "Level changes of the standard move that undo another one less than 1 s before."},
@@ -52,7 +57,11 @@ constexpr const AtlasMeasureText& textOf(AtlasMeasure measure) {
     return atlasMeasureTexts[static_cast<std::size_t>(measure)];
 }
 
-// One value of each measure, >= 0; NaN for what was not measured. EpsPx and DrawnBoundPx are infinite where there is no
+// A view that is not sharp after this time of the simulated disk is measured as it is then, in seconds.
+inline constexpr double atlasTimeoutS = 3600;
+
+// One value of each measure, >= 0; NaN for what was not measured. SharpS and BytesRead are NaN for a view that was not
+// sharp within atlasTimeoutS. EpsPx and DrawnBoundPx are infinite where there is no
 // bound (atlasBoundPx).
 using AtlasFigures = std::array<double, atlasMeasureCount>;
 inline double figureOf(const AtlasFigures& figures, AtlasMeasure measure) {

@@ -32,8 +32,6 @@ namespace planet {
 
 namespace {
 
-// A view that is not sharp after this time of the simulated disk counts as sharp after it.
-constexpr double atlasTimeoutS = 3600;
 constexpr double moveFrameS = 1.0 / 30;
 constexpr int moveFramesAhead = 15;
 
@@ -118,9 +116,10 @@ Result<void> AtlasMeter::measureStill(const View& view, AtlasFigures& figures,
     const std::uint64_t bytesBefore = planet_.paging().bytesRead();
     // A single call would not return soon enough after goOn has returned false.
     constexpr int slices = 16;
-    for (int i = 0; i < slices; ++i) {
+    bool isSharp = false;
+    for (int i = 0; i < slices && !isSharp; ++i) {
         if (!goOn()) return cancelled();
-        if (planet_.settle({&input, 1}, noUpload, atlasTimeoutS / slices)) break;
+        isSharp = planet_.settle({&input, 1}, noUpload, atlasTimeoutS / slices);
     }
     for (const BlockKind kind : {BlockKind::Colours, BlockKind::Normals}) planet_.takeTileChanges(kind);
     const SelectionCounters& drawn = planet_.selection().counters;
@@ -129,9 +128,11 @@ Result<void> AtlasMeter::measureStill(const View& view, AtlasFigures& figures,
     setFigure(figures, AtlasMeasure::DrawnBoundPx,
               atlasBoundPx(static_cast<double>(drawn.worstDrawnBoundPx), scalePx));
     setFigure(figures, AtlasMeasure::Triangles, static_cast<double>(drawn.triangles()));
-    setFigure(figures, AtlasMeasure::BytesRead,
-              static_cast<double>(planet_.paging().bytesRead() - bytesBefore));
-    setFigure(figures, AtlasMeasure::SharpS, planet_.inspect().sinceResetS());
+    if (isSharp) {
+        setFigure(figures, AtlasMeasure::BytesRead,
+                  static_cast<double>(planet_.paging().bytesRead() - bytesBefore));
+        setFigure(figures, AtlasMeasure::SharpS, planet_.inspect().sinceResetS());
+    }
     costs_.settleS += watch.elapsedS();
     if (!survey_.measuresError) return {};
     watch = {};

@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 
 #include "planet/measure/atlas.h"
 #include "planet/measure/atlas_diff.h"
@@ -73,6 +75,31 @@ TEST(AtlasTable, ReportsNameWhatHasNoBound) {
     EXPECT_TRUE(report["viewpoints"][9]["eps_px"].is_null());
     EXPECT_EQ(report["viewpoints"][9]["unbounded"], nlohmann::ordered_json({"eps_px"}));
     EXPECT_THAT(atlasCsv(atlas), HasSubstr(",inf,"));
+}
+
+TEST(AtlasTable, ALimitOnTheTimeOfViewsThatAreNotSharpIsRefusedAndNotMet) {
+    planet::Atlas before = tenViewpoints();
+    const auto sharpOf = [](planet::AtlasViewpoint& viewpoint) -> double& {
+        return viewpoint.figures[static_cast<std::size_t>(AtlasMeasure::SharpS)];
+    };
+    for (planet::AtlasViewpoint& viewpoint : before.viewpoints) sharpOf(viewpoint) = 2;
+    planet::Atlas now = before;
+    const planet::AtlasLimit limit{.measure = AtlasMeasure::SharpS, .by = 1};
+    EXPECT_TRUE(diffOf(before, now, {&limit, 1})->isWithinLimits());
+    sharpOf(now.viewpoints[4]) = NAN;
+    for (const auto& [earlier, later, which] :
+         {std::tuple(&before, &now, "present"), std::tuple(&now, &before, "earlier")}) {
+        const auto diff = diffOf(*earlier, *later, {&limit, 1});
+        ASSERT_FALSE(diff);
+        EXPECT_THAT(diff.error().message,
+                    HasSubstr(std::string("1 of 10 viewpoints of the ") + which +
+                              " survey are not sharp within 3600 s; expected a faster disk"));
+    }
+    EXPECT_TRUE(diffOf(before, now, {}));
+    const std::string csv = atlasCsv(now);
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 11);
+    EXPECT_TRUE(atlasJson(now, {}, 0)["viewpoints"][4]["sharp_s"].is_null());
+    EXPECT_EQ(atlasJson(now, {}, 0)["viewpoints"][5]["sharp_s"], 2);
 }
 
 TEST(AtlasTable, ALostBoundExceedsALimitAndIsReported) {

@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <random>
 
+#include "planet/base/percentile.h"
 #include "planet/measure/atlas_diff.h"
 #include "planet/measure/atlas_file.h"
 #include "planet/measure/atlas_run.h"
@@ -135,6 +136,32 @@ TEST(Atlas, ASlowerDiskTakesLongerUntilItIsSharp) {
         EXPECT_EQ(figureOf(now[i].figures, AtlasMeasure::BytesRead),
                   figureOf(before()[i].figures, AtlasMeasure::BytesRead));
     }
+}
+
+TEST(Atlas, AViewThatIsNotSharpInTimeHasNoTimeUntilItIs) {
+    std::vector<double> wanted;
+    for (const AtlasViewpoint& viewpoint : before())
+        wanted.push_back(figureOf(viewpoint.figures, AtlasMeasure::BytesRead));
+    // The disk reads in time what the view with the lower median wants, but not what the largest ones want.
+    const double bytesInTime = 1.05 * percentileOf(std::vector(wanted), 0.5);
+    AtlasSettings slow = smallSettings();
+    slow.paging.badDisk.bandwidthMBs = bytesInTime / atlasTimeoutS * 1e-6;
+    const auto now = revisit(fakePyramid(), slow);
+    std::size_t unsharp = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const AtlasFigures& figures = now[i].figures;
+        const bool isSharp = !std::isnan(figureOf(figures, AtlasMeasure::SharpS));
+        EXPECT_EQ(isSharp, !std::isnan(figureOf(figures, AtlasMeasure::BytesRead)));
+        EXPECT_GT(figureOf(figures, AtlasMeasure::Triangles), 0);
+        EXPECT_TRUE(isSharp || wanted[i] > 0.9 * bytesInTime) << wanted[i];
+        EXPECT_TRUE(!isSharp || wanted[i] < 1.1 * bytesInTime) << wanted[i];
+        if (!isSharp) ++unsharp;
+    }
+    EXPECT_GT(unsharp, 0u);
+    ASSERT_LT(unsharp, now.size());
+    // A figure that one of two surveys lacks is not compared.
+    const auto diffs = compareViewpoints(before(), now).value();
+    EXPECT_EQ(of(diffs, AtlasMeasure::SharpS).compared, now.size() - unsharp);
 }
 
 TEST(Atlas, MeasuresTheTrueErrorWithinItsBound) {
