@@ -143,6 +143,7 @@ void Editor::runFrame(Window& window, Session& session, double secondsSinceLast)
     const bool waitsForBake = !open || (open->isFirstLook && session.bake);
     followSecondWindow(window, settings_.settings, notices_);
     window.beginFrame(waitsForBake || sweep_.job ? 0.05 : 0);
+    if (window.closing() && !mayQuit(settings_, {}, replaying(), notices_)) window.keepOpen();
     const std::vector<GamepadButton> buttons = readDevices(camera_, window);
     const float pixelRatio = window.pixelRatio();
     const ui::Layout layout = layoutIn(window, workspace);
@@ -529,6 +530,8 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
             },
             [&](const ui::SettingsCommand& c) { worldy::execute(settings_, c, replaying(), notices_); },
             [&](const ui::WindowCommand& c) {
+                const auto* const quit = std::get_if<ui::Quit>(&c);
+                if (quit && !mayQuit(settings_, *quit, replaying(), notices_)) return;
                 worldy::execute(window_, c, window, windowContent(session), notices_);
             },
             [&](const ui::LayerCommand& c) {

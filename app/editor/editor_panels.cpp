@@ -21,6 +21,7 @@
 #include "ui/shell/menu_bar.h"
 #include "ui/shell/note_pins.h"
 #include "ui/shell/palette.h"
+#include "ui/shell/quit_question.h"
 #include "ui/shell/status_bar.h"
 #include "ui/shell/viewport_overlay.h"
 
@@ -159,6 +160,7 @@ void drawPanels(WindowController& window, const PanelContext& context, ui::Comma
     ui::openDialog(context.openDialog, commands);
     ui::messageBox(notices.message, commands);
     ui::dropQuestion(view.sources, commands);
+    ui::quitQuestion(view.settings, commands);
     ui::palette(actions);
     ui::followFocus(workspace, window.menu);
 }

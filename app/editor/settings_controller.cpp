@@ -88,61 +88,102 @@ void showNextLayout(SettingsController& controller, Notices& notices) {
     showLayout(controller, Workspace(*next.workspace), next.name, notices);
 }
 
-void saveRegions(SettingsController& controller, const fs::path& asked, Notices& notices) {
+void save(SettingsController& controller, const ui::SaveRegions& asked, Notices& notices) {
     RegionSettings& regions = controller.settings.view.regions;
-    const fs::path named = !regions.file.empty() ? fs::path(regions.file) : controller.regions.beside;
-    const fs::path& file = asked.empty() ? named : asked;
-    if (!succeeded(notices, worldy::saveRegions(regions.all(), file), "The regions were not saved")) return;
-    regions.file = file.string();
-    controller.regions.saved = regions.list;
-    confirm(notices, fmt::format("Regions saved: {}", file.string()));
+    RegionFiles& files = controller.regions;
+    files.question.clear();
+    const planet::Result<RegionsSave> saved = saveRegionsIn(
+        files, regions, asked.file.empty() ? fileOf(files, regions) : asked.file, asked.replaces);
+    if (!saved) return tellError(notices, {"The regions were not saved", saved.error().message, ""});
+    files.question = saved->question;
+    if (saved->file.empty()) return;
+    regions.file = saved->file.string();
+    confirm(notices, fmt::format("Regions saved: {}", regions.file));
+    if (saved->problem.empty()) return;
+    tellError(notices, {"The regions were saved in another file", saved->problem,
+                        fmt::format("This file is left as it is. The regions are in {}.", regions.file)});
 }
 
-void loadRegionsInto(SettingsController& controller, const fs::path& file, Notices& notices) {
-    planet::Result<RegionSettings> loaded = regionsFor(file, {});
-    if (!loaded) return tellError(notices, {"The regions cannot be read", loaded.error().message, ""});
+void load(SettingsController& controller, const fs::path& file, Notices& notices) {
     ViewSettings view = controller.settings.view;
+    const bool areLost = !areSaved(controller.regions, view.regions);
+    planet::Result<RegionSettings> loaded = readRegions(controller.regions, file);
+    if (!loaded) return tellError(notices, {"The regions cannot be read", loaded.error().message, ""});
     loaded->on = true;
-    controller.regions.saved = loaded->list;
     view.regions = std::move(*loaded);
+    controller.regions.question.clear();
     replaceView(controller, std::move(view), "regions of " + file.filename().string());
     confirm(notices, fmt::format("Regions of {} loaded", file.string()));
+    if (areLost) notices.log->warn("The regions before were not saved; Undo brings them back");
 }
 
-bool areSaved(const SettingsController& controller) {
-    const RegionSettings& regions = controller.settings.view.regions;
-    const RegionSettings saved{.list = controller.regions.saved};
-    return regions.list == saved.list || regions.all() == saved.all();
+// Reads the regions beside a planet. Those of an earlier session in which their file could not be read are in a second one.
+RegionSettings regionsBeside(RegionFiles& files, Notices& notices) {
+    const fs::path second = secondRegionsFile(files.beside);
+    planet::Result<RegionSettings> loaded = readRegions(files, files.beside);
+    if (loaded) {
+        if (loaded->list) notices.log->info("Regions of {} loaded", files.beside.string());
+        if (!second.empty())
+            notices.log->warn("Regions of an earlier session are in {}; open it to use them",
+                              second.string());
+        return *loaded;
+    }
+    planet::Result<RegionSettings> earlier{RegionSettings{}};
+    if (!second.empty()) earlier = readRegions(files, second);
+    const std::string keeps = earlier && earlier->list
+                                  ? fmt::format("The regions of {} are shown", second.filename().string())
+                                  : std::string("Regions are saved in another file beside it");
+    tellError(notices,
+              {"The regions cannot be read", loaded.error().message,
+               fmt::format("The file is left as it is. {} until it is mended and the planet is opened again.",
+                           keeps)});
+    return earlier ? *earlier : RegionSettings{};
 }
 
 }  // namespace
 
-void followRegions(SettingsController& controller, const DataSet& files, Notices& notices) {
-    RegionFiles& now = controller.regions;
-    if (now.planet == files.source) return;
+void followRegions(SettingsController& controller, const DataSet& data, Notices& notices) {
+    RegionFiles& files = controller.regions;
     RegionSettings& regions = controller.settings.view.regions;
-    const bool areGiven = now.planet.empty() && !regions.file.empty();
-    const bool areLost = !now.planet.empty() && !areSaved(controller);
-    now.planet = files.source;
-    // The text of a terrain is no file.
-    const fs::path& planetFile = planet::isTerrainText(files.source) ? files.chunkFile : files.source;
-    now.beside = regionsFileOf(planetFile);
-    if (areGiven) {
-        now.saved = regions.list;
+    if (files.planet == data.source) {
+        files.shown = regions;
         return;
     }
-    if (areLost) notices.log->warn("The regions of the planet before were not saved; Undo brings them back");
-    planet::Result<RegionSettings> loaded = regionsFor({}, planetFile);
-    if (!loaded) tellError(notices, {"The regions cannot be read", loaded.error().message, ""});
-    ViewSettings view = controller.settings.view;
-    view.regions = loaded ? *loaded : RegionSettings{};
-    view.regions.on = regions.on;
-    now.saved = view.regions.list;
-    if (areLost)
-        replaceView(controller, std::move(view), "regions of another planet");
-    else
-        controller.settings.view = std::move(view);
-    if (now.saved) notices.log->info("Regions of {} loaded", now.beside.string());
+    const bool areGiven = files.planet.empty() && !regions.file.empty();
+    if (!files.planet.empty() && !areSaved(files, files.shown)) {
+        files.shown.file = fileOf(files, files.shown).string();
+        files.unsaved[files.planet] = files.shown;
+        notices.log->warn(
+            "The regions in {} were not saved; they come back when their planet is opened again",
+            files.shown.file);
+    }
+    files.planet = data.source;
+    files.question.clear();
+    // The text of a terrain is no file.
+    files.beside = regionsFileOf(planet::isTerrainText(data.source) ? data.chunkFile : data.source);
+    const auto unsaved = files.unsaved.find(files.planet);
+    if (areGiven) {
+        noteRead(files, regions);
+    } else {
+        const bool on = regions.on;
+        regions = unsaved == files.unsaved.end() ? regionsBeside(files, notices) : unsaved->second;
+        regions.on = on;
+    }
+    if (unsaved != files.unsaved.end()) files.unsaved.erase(unsaved);
+    files.shown = regions;
+    controller.undo.replaceRegions(regions);
+}
+
+bool mayQuit(SettingsController& controller, const ui::Quit& quit, bool replaying, Notices& notices) {
+    using Unsaved = ui::Quit::Unsaved;
+    RegionFiles& files = controller.regions;
+    const RegionSettings current = replaying ? files.shown : controller.settings.view.regions;
+    files.quitQuestion.clear();
+    if (quit.regions == Unsaved::Discard) return true;
+    if (quit.regions == Unsaved::Save)
+        return succeeded(notices, saveAllRegions(files, current), "The regions were not saved");
+    files.quitQuestion = unsavedRegions(files, current);
+    return files.quitQuestion.empty();
 }
 
 void governFrame(SettingsController& controller, const FrameController& frames, const planet::Planet& planet,
@@ -195,10 +236,12 @@ void execute(SettingsController& controller, const ui::SettingsCommand& command,
                     confirm(notices, fmt::format("Layout {} deleted", layout.name));
             },
             [&](const ui::NextLayout&) { showNextLayout(controller, notices); },
-            [&](const ui::SaveRegions& save) { saveRegions(controller, save.file, notices); },
-            [&](const ui::LoadRegions& load) {
-                if (maySet()) loadRegionsInto(controller, load.file, notices);
+            [&](const ui::SaveRegions& asked) { save(controller, asked, notices); },
+            [&](const ui::KeepRegionsFile&) { controller.regions.question.clear(); },
+            [&](const ui::LoadRegions& asked) {
+                if (maySet()) load(controller, asked.file, notices);
             },
+            [&](const ui::KeepWindow&) { controller.regions.quitQuestion.clear(); },
             [&](const ui::ResetLayout&) { showLayout(controller, {}, "default", notices); },
             [&](const ui::RestoreLayout&) { restoreLayout(controller, notices); },
             [&](const ui::DeletePreset& preset) {
@@ -215,14 +258,17 @@ void replaceView(SettingsController& controller, ViewSettings settings, std::str
 }
 
 ui::SettingsView settingsViewOf(SettingsController& controller) {
-    return {controller.presets.views(ungoverned(controller, controller.settings.view)),
-            controller.undo.undoName(),
-            controller.undo.redoName(),
-            controller.layouts.layouts(),
-            controller.unsavedLayout.has_value(),
-            !areSaved(controller),
-            controller.settings.view.regions.file.empty() ? controller.regions.beside
-                                                          : fs::path(controller.settings.view.regions.file)};
+    const RegionFiles& files = controller.regions;
+    const RegionSettings& regions = controller.settings.view.regions;
+    return {.presets = controller.presets.views(ungoverned(controller, controller.settings.view)),
+            .undoName = controller.undo.undoName(),
+            .redoName = controller.undo.redoName(),
+            .layouts = controller.layouts.layouts(),
+            .hasUnsavedLayout = controller.unsavedLayout.has_value(),
+            .hasUnsavedRegions = !areSaved(files, regions),
+            .regionsFile = fileOf(files, regions),
+            .regionsQuestion = files.question,
+            .quitQuestion = files.quitQuestion};
 }
 
 }  // namespace worldy

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/data/data_set.h"
 #include "app/data/layout_library.h"
@@ -13,21 +11,14 @@
 #include "app/scene/governing.h"
 #include "app/session/notices.h"
 #include "app/session/presets.h"
+#include "app/settings/region_files.h"
 #include "app/settings/settings.h"
 #include "app/settings/undo.h"
 #include "planet/planet.h"
-#include "planet/tree/region.h"
 #include "ui/model/commands.h"
 #include "ui/model/editor_view.h"
 
 namespace worldy {
-
-// The planet and the file that the regions in the settings belong to.
-struct RegionFiles {
-    std::filesystem::path planet{};  // the source of the planet that they are of; empty: of none yet
-    std::filesystem::path beside{};  // their file beside it
-    std::shared_ptr<const std::vector<planet::Region>> saved{};  // as they were read or saved; null: none
-};
 
 struct SettingsController {
     Settings settings;
@@ -50,9 +41,14 @@ ViewSettings ungoverned(const SettingsController& controller, ViewSettings view)
 void execute(SettingsController& controller, const ui::SettingsCommand& command, bool replaying,
              Notices& notices);
 
-// Call when a planet is shown. For another one than before, reads the regions beside it. Those that the settings of the
-// first planet name stay. files: the source, and its bake.
+// Call in every frame in which a planet is shown. For another one than before, reads the regions beside it, or takes those
+// that were not saved when it was shown last. Those that the settings of the first planet name stay. files: the source, and
+// its bake.
 void followRegions(SettingsController& controller, const DataSet& files, Notices& notices);
+
+// Returns whether the window may close. If regions are not saved, the user is asked first, or they are saved; during a replay,
+// the regions are those from before it.
+bool mayQuit(SettingsController& controller, const ui::Quit& quit, bool replaying, Notices& notices);
 
 // Replaces the view settings as one undo step. name: as the undo menu shows it, "preset popping".
 void replaceView(SettingsController& controller, ViewSettings settings, std::string name);

@@ -254,7 +254,7 @@ std::string regionsText(const std::vector<Region>& regions) {
 }
 
 Result<void> saveRegions(const std::vector<Region>& regions, const fs::path& file) {
-    return writeTextFile(file, "# Regions of a planet, for Worldy.\n" + regionsText(regions));
+    return writeTextFile(file, std::string(regionsFileHead) + regionsText(regions));
 }
 
 bool isRegionsFile(const fs::path& file) {

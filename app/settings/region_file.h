@@ -33,6 +33,7 @@
 namespace worldy {
 
 inline constexpr std::string_view regionsFileEnding = ".regions.toml";
+inline constexpr std::string_view regionsFileHead = "# Regions of a planet, for Worldy.\n";
 
 // Loads a file. The Error names the file, the line, the entry, what is wrong and what is expected.
 planet::Result<std::vector<planet::Region>> loadRegions(const std::filesystem::path& file);

@@ -130,6 +130,23 @@ void UndoHistory::close() {
     open_ = held_ = false;
 }
 
+void UndoHistory::replaceRegions(const RegionSettings& regions) {
+    close();
+    const auto replace = [&](ViewSettings& settings) {
+        settings.regions.list = regions.list;
+        settings.regions.file = regions.file;
+    };
+    const auto changesNothing = [&](Step& step) {
+        const bool hadRegions = !(step.before.regions == step.after.regions);
+        replace(step.before);
+        replace(step.after);
+        if (hadRegions) step.name.clear();  // it may name the regions
+        return step.before == step.after;
+    };
+    std::erase_if(done_, changesNothing);
+    std::erase_if(undone_, changesNothing);
+}
+
 std::optional<ViewSettings> UndoHistory::undo() {
     close();
     if (done_.empty()) return std::nullopt;

@@ -25,6 +25,10 @@ public:
     // Adds a change as a named step of its own: "preset popping".
     void add(const ViewSettings& before, const ViewSettings& after, std::string name);
 
+    // Call when another planet is shown, with its regions. Removes those of the planet before from all steps, and the steps
+    // that changed nothing else.
+    void replaceRegions(const RegionSettings& regions);
+
     // Return the settings to go back or forward to; none if there are none.
     std::optional<ViewSettings> undo();
     std::optional<ViewSettings> redo();

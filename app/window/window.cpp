@@ -492,6 +492,10 @@ void Window::close() const {
     glfwSetWindowShouldClose(glfw_->window, GLFW_TRUE);
 }
 
+void Window::keepOpen() const {
+    glfwSetWindowShouldClose(glfw_->window, GLFW_FALSE);
+}
+
 bool Window::isFocused() const {
     const auto hasFocus = [](GLFWwindow* window) {
         return window && glfwGetWindowAttrib(window, GLFW_FOCUSED) != 0;

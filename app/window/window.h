@@ -50,6 +50,7 @@ public:
     void setTitle(const std::string& title) const;
     bool closing() const;
     void close() const;
+    void keepOpen() const;   // after the user wanted to close it
     bool isFocused() const;  // keys go to this window or to the second one
 
     // Waits for input, but not longer than waitS seconds. Returns whether input has come since the last frame began: keys,

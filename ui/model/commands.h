@@ -179,14 +179,17 @@ struct NextLayout {};   // the default, the saved ones, and the panels before th
 struct ResetLayout {};  // to the default
 struct SaveRegions {    // of the planet, beside it unless they are from another file
     std::filesystem::path file{};  // empty: that file
+    bool replaces = false;  // false: the user is asked before comments or changes by another program are lost
 };
-struct LoadRegions {  // replaces those of the planet
+struct KeepRegionsFile {};  // answers that question: nothing is saved
+struct LoadRegions {        // replaces those of the planet
     std::filesystem::path file;
 };
+struct KeepWindow {};     // answers the question of Quit: the window stays
 struct RestoreLayout {};  // to the panels before the last change of layout, if they were not saved
-using SettingsCommand =
-    std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset, SaveLayout, LoadLayout, DeleteLayout,
-                 NextLayout, ResetLayout, RestoreLayout, SaveRegions, LoadRegions>;
+using SettingsCommand = std::variant<Undo, Redo, SavePreset, LoadPreset, DeletePreset, SaveLayout, LoadLayout,
+                                     DeleteLayout, NextLayout, ResetLayout, RestoreLayout, SaveRegions,
+                                     KeepRegionsFile, LoadRegions, KeepWindow>;
 
 // The window.
 struct CopyCommandLine {};
@@ -209,7 +212,10 @@ struct TakeScreenshot {
 struct WriteKeyFile {};  // with all commands and their default keys; an existing file is kept
 struct ReloadKeys {};
 struct SaveReport {};  // of the session, into a new folder beside the screenshots
-struct Quit {};
+struct Quit {
+    enum class Unsaved : std::uint8_t { Ask, Save, Discard };
+    Unsaved regions = Unsaved::Ask;  // what to do about those that are not saved
+};
 using WindowCommand = std::variant<CopyCommandLine, CopyText, SaveExport, SavePlotPicture, TakeScreenshot,
                                    WriteKeyFile, ReloadKeys, SaveReport, Quit>;
 

@@ -154,6 +154,9 @@ struct SettingsView {
     bool hasUnsavedLayout = false;           // for RestoreLayout
     bool hasUnsavedRegions = false;
     std::filesystem::path regionsFile{};  // that SaveRegions writes
+    std::string regionsQuestion{};        // what SaveRegions would destroy; empty: it asks nothing
+    std::vector<std::string>
+        quitQuestion{};  // regions files whose changes are lost if Worldy quits; empty: it does not
 };
 
 // Finished and running measurements of the planet.

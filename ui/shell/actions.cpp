@@ -117,7 +117,8 @@ void addFile(List& list) {
     saving.add("save_report", "Save session report...",
                "Saves the settings, measurements and notes of this session as a page with pictures.", {},
                sends(SaveReport{}), needsPlanet);
-    leaving.add("quit", "Quit", "Saves the settings and ends Worldy.", {"Ctrl+Q"}, sends(Quit{}));
+    leaving.add("quit", "Quit", "Saves the settings and ends Worldy. Asks first if regions are not saved.",
+                {"Ctrl+Q"}, sends(Quit{}));
 }
 
 // ---- Edit ----

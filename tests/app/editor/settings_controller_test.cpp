@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <deque>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,6 +64,29 @@ protected:
         return all;
     }
 
+    // Adds a region as the panel does.
+    void add(const std::string& name) {
+        std::vector<planet::Region> all = controller_.settings.view.regions.all();
+        all.emplace_back().name = name;
+        controller_.settings.view.regions.list = std::make_shared<const std::vector<planet::Region>>(all);
+    }
+    void run(const ui::SettingsCommand& command) { execute(controller_, command, false, notices_); }
+    bool mayQuit(ui::Quit::Unsaved unsaved = ui::Quit::Unsaved::Ask) {
+        return worldy::mayQuit(controller_, {unsaved}, false, notices_);
+    }
+    std::string text(const std::string& file) const {
+        std::ifstream stream(folder_ / file);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    std::vector<std::string> namesIn(const std::string& file) const {
+        const std::vector<planet::Region> read = loadRegions(folder_ / file).value();
+        std::vector<std::string> all;
+        for (const planet::Region& region : read) all.push_back(region.name);
+        return all;
+    }
+    ui::SettingsView view() { return settingsViewOf(controller_); }
+
+    using Names = std::vector<std::string>;
     const tests::TemporaryFolder folder_;
     const Log log_;
     Notices notices_{log_};
@@ -88,27 +114,197 @@ TEST_F(RegionsOfPlanets, thoseOfTheCommandLineStayForTheFirstPlanet) {
     EXPECT_EQ(names(), std::vector<std::string>{"Valley"});
 }
 
-TEST_F(RegionsOfPlanets, editsAreSavedBesideThePlanetAndAnotherPlanetDoesNotLoseThem) {
+TEST_F(RegionsOfPlanets, editsAreSavedBesideThePlanet) {
     open("moon.chk");
-    planet::Region region;
-    region.name = "Crater";
-    RegionSettings& regions = controller_.settings.view.regions;
-    regions.list = std::make_shared<const std::vector<planet::Region>>(1, region);
-    EXPECT_TRUE(settingsViewOf(controller_).hasUnsavedRegions);
-    open("earth.chk");
-    execute(controller_, ui::Undo{}, false, notices_);
-    EXPECT_EQ(names(), std::vector<std::string>{"Crater"});
-    execute(controller_, ui::Redo{}, false, notices_);
-    EXPECT_EQ(names(), std::vector<std::string>{"Valley"});
-    open("moon.chk");
-    regions.list = std::make_shared<const std::vector<planet::Region>>(1, region);
-    execute(controller_, ui::SaveRegions{}, false, notices_);
-    EXPECT_FALSE(settingsViewOf(controller_).hasUnsavedRegions);
-    EXPECT_EQ(loadRegions(folder_ / "moon.regions.toml").value(), regions.all());
-    execute(controller_, ui::LoadRegions{folder_ / "other.regions.toml"}, false, notices_);
-    EXPECT_EQ(names(), std::vector<std::string>{"Other"});
+    add("Crater");
+    EXPECT_TRUE(view().hasUnsavedRegions);
+    run(ui::SaveRegions{});
+    EXPECT_FALSE(view().hasUnsavedRegions);
+    EXPECT_EQ(namesIn("moon.regions.toml"), Names{"Crater"});
+    run(ui::LoadRegions{folder_ / "other.regions.toml"});
+    EXPECT_EQ(names(), Names{"Other"});
     execute(controller_, ui::LoadRegions{folder_ / "earth.regions.toml"}, true, notices_);
-    EXPECT_EQ(names(), std::vector<std::string>{"Other"}) << "not during a replay";
+    EXPECT_EQ(names(), Names{"Other"}) << "not during a replay";
+    run(ui::Undo{});
+    EXPECT_EQ(names(), Names{"Crater"});
+    EXPECT_FALSE(view().hasUnsavedRegions) << "they are those of moon.regions.toml again";
+}
+
+TEST_F(RegionsOfPlanets, undoDoesNotBringRegionsToAnotherPlanet) {
+    open("moon.chk");
+    const ViewSettings before = controller_.settings.view;
+    add("Crater");
+    controller_.undo.add(before, controller_.settings.view, "Region \"Crater\" added");
+    const ViewSettings added = controller_.settings.view;
+    controller_.settings.view.lod.tauPx = 3;
+    controller_.undo.add(added, controller_.settings.view, "");
+    open("moon.chk");  // the next frame
+    open("earth.chk");
+    EXPECT_EQ(names(), Names{"Valley"});
+    run(ui::Undo{});
+    EXPECT_EQ(controller_.settings.view.lod.tauPx, before.lod.tauPx) << "other settings are undone";
+    EXPECT_EQ(names(), Names{"Valley"});
+    EXPECT_EQ(view().undoName, "");
+    run(ui::Undo{});
+    EXPECT_EQ(names(), Names{"Valley"});
+    EXPECT_FALSE(view().hasUnsavedRegions);
+    run(ui::Redo{});
+    EXPECT_EQ(controller_.settings.view.lod.tauPx, 3);
+    EXPECT_EQ(names(), Names{"Valley"});
+}
+
+TEST_F(RegionsOfPlanets, unsavedOnesComeBackWithTheirPlanet) {
+    open("moon.chk");
+    add("Crater");
+    open("moon.chk");  // the next frame
+    open("earth.chk");
+    EXPECT_EQ(names(), Names{"Valley"});
+    EXPECT_FALSE(view().hasUnsavedRegions);
+    open("moon.chk");
+    EXPECT_EQ(names(), Names{"Crater"});
+    EXPECT_TRUE(view().hasUnsavedRegions);
+    run(ui::SaveRegions{});
+    EXPECT_EQ(namesIn("moon.regions.toml"), Names{"Crater"});
+    open("moon.chk");
+    open("earth.chk");
+    EXPECT_TRUE(mayQuit()) << "all are saved";
+}
+
+TEST_F(RegionsOfPlanets, quittingAsksAboutUnsavedOnes) {
+    EXPECT_TRUE(mayQuit()) << "no planet is open";
+    open("earth.chk");
+    EXPECT_TRUE(mayQuit());
+    add("Crater");
+    EXPECT_FALSE(mayQuit());
+    EXPECT_EQ(view().quitQuestion, Names{(folder_ / "earth.regions.toml").string()});
+    run(ui::KeepWindow{});
+    EXPECT_TRUE(view().quitQuestion.empty());
+    open("earth.chk");
+    open("moon.chk");
+    EXPECT_FALSE(mayQuit()) << "those of the planet before are lost too";
+    EXPECT_TRUE(mayQuit(ui::Quit::Unsaved::Discard));
+    add("Sea");
+    EXPECT_TRUE(mayQuit(ui::Quit::Unsaved::Save));
+    EXPECT_EQ(namesIn("earth.regions.toml"), (Names{"Valley", "Crater"}));
+    EXPECT_EQ(namesIn("moon.regions.toml"), Names{"Sea"});
+}
+
+TEST_F(RegionsOfPlanets, quittingStaysIfAFileNeedsAnAnswer) {
+    open("earth.chk");
+    add("Crater");
+    write("earth.regions.toml", "Of another program");
+    EXPECT_FALSE(mayQuit(ui::Quit::Unsaved::Save));
+    EXPECT_EQ(namesIn("earth.regions.toml"), Names{"Of another program"});
+    EXPECT_NE(notices_.message.text.find("changed by another program"), std::string::npos);
+}
+
+TEST_F(RegionsOfPlanets, aFileThatCannotBeReadIsNeverOverwritten) {
+    const std::string broken = "[[region]]\nname = \"Valley\nleast_level = 3\n";
+    std::ofstream(folder_ / "earth.regions.toml") << broken;
+    open("earth.chk");
+    notices_.message = {};
+    add("Crater");
+    run(ui::SaveRegions{});
+    EXPECT_EQ(text("earth.regions.toml"), broken);
+    EXPECT_EQ(namesIn("earth.session.regions.toml"), Names{"Crater"});
+    EXPECT_NE(notices_.message.text.find("earth.regions.toml: line"), std::string::npos);
+    EXPECT_FALSE(view().hasUnsavedRegions);
+    add("Sea");
+    run(ui::SaveRegions{});
+    EXPECT_EQ(namesIn("earth.session.regions.toml"), (Names{"Crater", "Sea"}));
+
+    // The next session finds them.
+    controller_.regions = {};
+    controller_.settings.view.regions = {};
+    open("earth.chk");
+    EXPECT_EQ(names(), (Names{"Crater", "Sea"}));
+    EXPECT_EQ(text("earth.regions.toml"), broken);
+}
+
+TEST_F(RegionsOfPlanets, aSecondFileOfSomebodyElseIsNotOverwritten) {
+    std::ofstream(folder_ / "earth.regions.toml") << "broken";
+    open("earth.chk");
+    write("earth.session.regions.toml", "Of somebody else");
+    add("Crater");
+    run(ui::SaveRegions{});
+    EXPECT_EQ(namesIn("earth.session.regions.toml"), Names{"Of somebody else"});
+    EXPECT_EQ(namesIn("earth.session-2.regions.toml"), Names{"Crater"});
+}
+
+TEST_F(RegionsOfPlanets, changesByAnotherProgramAreNotOverwrittenUnasked) {
+    open("earth.chk");
+    const ViewSettings before = controller_.settings.view;
+    add("Crater");
+    write("earth.regions.toml", "Of another program");
+    run(ui::SaveRegions{});
+    EXPECT_EQ(namesIn("earth.regions.toml"), Names{"Of another program"});
+    EXPECT_NE(view().regionsQuestion.find("was changed by another program"), std::string::npos);
+    EXPECT_TRUE(view().hasUnsavedRegions);
+    run(ui::KeepRegionsFile{});
+    EXPECT_EQ(view().regionsQuestion, "");
+    run(ui::SaveRegions{});
+    run(ui::LoadRegions{view().regionsFile});
+    EXPECT_EQ(view().regionsQuestion, "");
+    EXPECT_EQ(names(), Names{"Of another program"});
+    run(ui::Undo{});
+    run(ui::SaveRegions{});
+    EXPECT_EQ(namesIn("earth.regions.toml"), (Names{"Valley", "Crater"})) << "the other changes were read";
+    write("earth.regions.toml", "Of another program");
+    run(ui::SaveRegions{.replaces = true});
+    EXPECT_EQ(namesIn("earth.regions.toml"), (Names{"Valley", "Crater"}));
+}
+
+TEST_F(RegionsOfPlanets, aFileThatAnotherProgramMadeIsNotOverwrittenUnasked) {
+    open("moon.chk");
+    add("Crater");
+    write("moon.regions.toml", "Of another program");
+    run(ui::SaveRegions{});
+    EXPECT_EQ(namesIn("moon.regions.toml"), Names{"Of another program"});
+    EXPECT_NE(view().regionsQuestion.find("was written by another program"), std::string::npos);
+}
+
+TEST_F(RegionsOfPlanets, commentsAreLostOnlyIfTheUserAgrees) {
+    std::ofstream(folder_ / "earth.regions.toml") << "# mine\n[[region]]\nname = \"Valley # 1\"\n";
+    open("earth.chk");
+    add("Crater");
+    run(ui::SaveRegions{});
+    EXPECT_EQ(namesIn("earth.regions.toml"), Names{"Valley # 1"});
+    EXPECT_NE(view().regionsQuestion.find("has comments"), std::string::npos);
+    run(ui::SaveRegions{.replaces = true});
+    EXPECT_EQ(namesIn("earth.regions.toml"), (Names{"Valley # 1", "Crater"}));
+    add("Sea");
+    run(ui::SaveRegions{});
+    EXPECT_EQ(view().regionsQuestion, "") << "there are no comments any more";
+    EXPECT_FALSE(view().hasUnsavedRegions);
+}
+
+TEST_F(RegionsOfPlanets, otherOnesDoNotReplaceUnsavedOnesSilently) {
+    open("earth.chk");
+    run(ui::LoadRegions{folder_ / "other.regions.toml"});
+    add("Crater");
+    std::deque<LogLine> lines;
+    log_.moveNewLines(lines);
+    lines.clear();
+    run(ui::LoadRegions{folder_ / "earth.regions.toml"});
+    log_.moveNewLines(lines);
+    EXPECT_TRUE(std::ranges::any_of(lines, [](const LogLine& line) {
+        return line.level == LogLevel::Warning && line.text.find("not saved") != std::string::npos;
+    }));
+    run(ui::Undo{});
+    EXPECT_EQ(names(), (Names{"Other", "Crater"}));
+}
+
+TEST(RegionsFileComments, areFoundOutsideOfStrings) {
+    EXPECT_FALSE(hasOwnComments(""));
+    EXPECT_FALSE(hasOwnComments("# Regions of a planet, for Worldy.\n[[region]]\nname = \"a # b\"\n"));
+    EXPECT_TRUE(hasOwnComments("# Regions of a planet, for Worldy.\n[[region]] # mine\n"));
+    EXPECT_TRUE(hasOwnComments("a = \"\" # mine"));
+    EXPECT_TRUE(hasOwnComments("a = \"\\\" # no\" # mine"));
+    EXPECT_FALSE(hasOwnComments("a = \"\\\" # no\""));
+    EXPECT_FALSE(hasOwnComments("a = '\\ # no'"));
+    EXPECT_TRUE(hasOwnComments("a = '\\' # mine"));
+    EXPECT_FALSE(hasOwnComments("a = \"\"\"x\n# no \" # no\"\"\"\""));
+    EXPECT_TRUE(hasOwnComments("a = '''x\n# no '''' # mine"));
 }
 
 }  // namespace

@@ -156,6 +156,18 @@ void listButtons(const EditorView& view, Regions& regions, RegionsPanelState& st
     endGrey();
 }
 
+// Asks about what saving would destroy.
+void saveQuestion(const SettingsView& files, Commands& commands) {
+    wrappedText(files.regionsQuestion, palette().warning);
+    if (button("Replace it", "Writes the regions into this file."))
+        commands.push_back(SaveRegions{.replaces = true});
+    sameLineForButton("Read it");
+    if (button("Read it", "Replaces the regions by those of the file. Undo brings yours back."))
+        commands.push_back(LoadRegions{files.regionsFile});
+    sameLineForButton("Do not save");
+    if (button("Do not save", "Leaves the file as it is.")) commands.push_back(KeepRegionsFile{});
+}
+
 void fileControls(const EditorView& view, bool isEmpty, Commands& commands) {
     const SettingsView& files = view.settings;
     beginGrey(isEmpty && !files.hasUnsavedRegions, noRegion);
@@ -167,6 +179,7 @@ void fileControls(const EditorView& view, bool isEmpty, Commands& commands) {
     ImGui::TextColored(files.hasUnsavedRegions ? palette().warning : palette().dim, "%s",
                        files.hasUnsavedRegions ? "not saved" : files.regionsFile.filename().string().c_str());
     tooltip(files.regionsFile.string().c_str());
+    if (!files.regionsQuestion.empty()) saveQuestion(files, commands);
 }
 
 void nameField(Region& region) {

@@ -27,6 +27,7 @@ protected:
         Commands commands;
         EditorView view = fixture_.view();
         view.settings.regionsFile = "/planets/earth.regions.toml";
+        view.settings.regionsQuestion = question_;
         window_.frame([&] { regionsPanel(view, state_, settings_, commands); });
         addAsked(std::move(commands), commands_);
     }
@@ -41,6 +42,7 @@ protected:
     RegionsPanelState state_;
     ViewSettings settings_;
     Commands commands_;
+    std::string question_;
 };
 
 TEST_F(RegionsPanel, aRegionIsAddedSwitchedCopiedAndDeleted) {
@@ -90,6 +92,19 @@ TEST_F(RegionsPanel, savingAsksForTheFileBesideThePlanet) {
     ASSERT_EQ(commands_.size(), 1u);
     ASSERT_TRUE(commands_[0].as<SaveRegions>());
     EXPECT_TRUE(commands_[0].as<SaveRegions>()->file.empty());
+}
+
+TEST_F(RegionsPanel, theQuestionBeforeSavingHasThreeAnswers) {
+    EXPECT_FALSE(window_.isShown("Replace it"));
+    question_ = "earth.regions.toml has comments. Saving removes them.";
+    frame();
+    for (const char* const answer : {"Replace it", "Read it", "Do not save"}) click(answer);
+    ASSERT_EQ(commands_.size(), 3u);
+    ASSERT_TRUE(commands_[0].as<SaveRegions>());
+    EXPECT_TRUE(commands_[0].as<SaveRegions>()->replaces);
+    ASSERT_TRUE(commands_[1].as<LoadRegions>());
+    EXPECT_EQ(commands_[1].as<LoadRegions>()->file, "/planets/earth.regions.toml");
+    EXPECT_TRUE(commands_[2].as<KeepRegionsFile>());
 }
 
 TEST_F(RegionsPanel, aPolygonIsClosedFromItsCornersAndRemoved) {
