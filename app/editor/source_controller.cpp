@@ -22,7 +22,8 @@ void changeEdit(LayerEditing& editing, WorldEdit edit) {
     editing.edit = std::move(edit);
     const planet::Result<void> good = checkEdit(editing.edit);
     editing.bakeProblem = good ? std::string() : good.error().message;
-    editing.changed = editing.file && !sameWorld(*editing.file, editing.edit);
+    editing.changed = editing.file && !sameWorld(editing.shown, editing.edit);
+    editing.unsaved = editing.file && !sameWorld(*editing.file, editing.edit);
 }
 
 // Reads the layers of a source to edit them. Unsaved changes of another source are kept until that is opened again.
@@ -32,21 +33,26 @@ void readEdits(SourceController& sources, const std::filesystem::path& source) {
     const auto isOf = [&](const LayerEditing& each) {
         return !source.empty() && (source == each.source || source == each.baked);
     };
-    if (isOf(editing)) return;
-    if (editing.changed) sources.kept.push_back(editing);
+    if (isOf(editing)) {
+        editing.shown = source == editing.baked ? editing.bakedEdit : editing.opened;
+        return changeEdit(editing, editing.edit);
+    }
+    if (editing.changed || editing.unsaved) sources.kept.push_back(editing);
     editing = {.source = source};
     if (source.empty()) return;
     const auto kept = std::ranges::find_if(sources.kept, isOf);
     if (kept != sources.kept.end()) {
         editing.source = kept->source;
         editing.baked = kept->baked;
+        editing.bakedEdit = kept->bakedEdit;
     }
     planet::Result<WorldEdit> read = editOf(editing.source, sources.settings);
     if (!read) {
         editing.problem = read.error().message;
         return;
     }
-    editing.file = *read;
+    editing.file = editing.opened = *read;
+    editing.shown = source == editing.baked ? editing.bakedEdit : editing.opened;
     changeEdit(editing, kept == sources.kept.end() ? *std::move(read) : kept->edit);
     if (kept != sources.kept.end()) sources.kept.erase(kept);
 }
@@ -185,6 +191,7 @@ void bakeEdited(SourceController& sources, const OpenPlanet& open, Notices& noti
         return tellError(notices,
                          {"The layers cannot be baked", file.error().message, "Change the layers.", false});
     editing.baked = *file;
+    editing.bakedEdit = editing.edit;
     BakeRequest request{*file, {}, open.baked.settings, open.baked.colour};
     // The finest samples may be those of another layer now, and the heights may have another range.
     request.settings.faceSize.reset();
@@ -205,7 +212,7 @@ void saveEdited(LayerEditing& editing, const ui::SaveLayers& save, Notices& noti
                    fmt::format("{} cannot be saved", file.filename().string())))
         return;
     editing.file = editing.edit;
-    editing.changed = false;
+    editing.unsaved = false;
     confirm(notices, fmt::format("World file {} saved", std::filesystem::absolute(file, status).string()));
 }
 
@@ -236,7 +243,7 @@ void execute(SourceController& sources, const ui::SourceCommand& command, const 
                    },
                    [&](const ui::EditLayers& edit) { changeEdit(editing, edit.edit); },
                    [&](const ui::RevertLayers&) {
-                       if (editing.file) changeEdit(editing, *editing.file);
+                       if (editing.file) changeEdit(editing, editing.changed ? editing.shown : *editing.file);
                    },
                    [&](const ui::BakeLayers&) {
                        if (open) bakeEdited(sources, *open, notices, next);
@@ -279,6 +286,7 @@ ui::SourcesView sourcesViewOf(const SourceController& sources, const Session& se
     if (editing.file) view.edit = &editing.edit;
     view.editProblem = editing.problem;
     view.edited = editing.changed;
+    view.unsaved = editing.unsaved;
     view.bakeProblem = editing.bakeProblem;
     view.replaces = editing.replaces;
     view.baking = session.bake.has_value();

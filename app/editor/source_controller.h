@@ -27,7 +27,11 @@ struct LayerEditing {
     std::filesystem::path baked{};    // the world file of their last bake; empty if there was none
     std::optional<WorldEdit> file{};  // as they were read or saved last; none if they cannot be edited
     WorldEdit edit{};
-    bool changed = false;              // edit gives another world than file
+    WorldEdit opened{};                // as they were read from the source
+    WorldEdit bakedEdit{};             // the layers of the last bake of edited ones
+    WorldEdit shown{};                 // those of the two that the open planet was baked from
+    bool changed = false;              // edit gives another world than the planet was baked from
+    bool unsaved = false;              // edit gives another world than file
     std::string problem{};             // why they cannot be edited
     std::string bakeProblem{};         // why they cannot be baked
     std::filesystem::path replaces{};  // an existing file that saving them would replace

@@ -326,7 +326,7 @@ struct ReadSource {};  // opens the source in the background to describe its lay
 struct EditLayers {    // replaces the edited layers
     WorldEdit edit;
 };
-struct RevertLayers {};  // to those of the file
+struct RevertLayers {};  // to those of the planet, or to those of the file if they are those of the planet
 struct BakeLayers {};    // with the settings of the open file
 struct SaveLayers {      // as a world file
     std::filesystem::path file;

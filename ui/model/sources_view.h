@@ -34,7 +34,8 @@ struct SourcesView {
 
     const WorldEdit* edit = nullptr;  // the edited layers; null if they cannot be edited; valid for the frame
     std::string editProblem{};        // why they cannot be edited
-    bool edited = false;              // they differ from those of the file
+    bool edited = false;              // they differ from those that the planet was baked from
+    bool unsaved = false;             // they differ from those of the file
     std::string bakeProblem{};        // why the edited layers cannot be baked
     std::filesystem::path
         replaces{};  // an existing file that saving would replace; the user is asked about it

@@ -129,12 +129,17 @@ TEST_F(SourceControllerTest, EditedLayersAreBakedAndOutliveTheirPlanet) {
     const double highestM = planet::heightM(session.open->scene.planet->tree().storedShape,
                                             session.open->scene.planet->tree().maxStep);
     EXPECT_NEAR(highestM, 600, 1) << "the raster with its offset";
-    EXPECT_TRUE(view(session).edited) << "from the world file that was opened";
+    EXPECT_FALSE(view(session).edited) << "the planet was baked from these layers";
+    EXPECT_TRUE(view(session).unsaved) << "the world file that was opened has others";
     EXPECT_EQ(view(session).source, folder_ / "world.toml");
     EXPECT_EQ(view(session).edit->layers[1].offsetM, 100);
     run(session, ui::RevertLayers{});
-    EXPECT_FALSE(view(session).edited);
+    EXPECT_FALSE(view(session).unsaved);
     EXPECT_EQ(view(session).edit->layers[1].offsetM, 0);
+    EXPECT_TRUE(view(session).edited) << "the planet still shows the offset";
+    run(session, ui::RevertLayers{});
+    EXPECT_EQ(view(session).edit->layers[1].offsetM, 100) << "the layers of the planet";
+    EXPECT_FALSE(view(session).edited);
 }
 
 TEST_F(SourceControllerTest, WrongEditIsSaidAndNotBaked) {
@@ -148,7 +153,7 @@ TEST_F(SourceControllerTest, WrongEditIsSaidAndNotBaked) {
     EXPECT_THAT(notices_.message.text, HasSubstr("no layer is on"));
 }
 
-TEST_F(SourceControllerTest, SavedLayersAreNoLongerEdited) {
+TEST_F(SourceControllerTest, SavedLayersAreStillOthersThanThePlanetShows) {
     Session session = sessionOf(folder_ / "world.toml");
     ASSERT_TRUE(framesUntil(session, [&] { return session.open && view(session).edit; }));
     WorldEdit edit = *view(session).edit;
@@ -156,11 +161,17 @@ TEST_F(SourceControllerTest, SavedLayersAreNoLongerEdited) {
     run(session, ui::EditLayers{edit});
     run(session, ui::SaveLayers{folder_ / "saved.toml"});
     EXPECT_TRUE(planet::isWorldFile(folder_ / "saved.toml"));
-    EXPECT_FALSE(view(session).edited);
+    EXPECT_FALSE(view(session).unsaved);
+    EXPECT_TRUE(view(session).edited) << "the planet was baked with the layer";
+    EXPECT_EQ(run(session, ui::BakeLayers{}).size(), 1u);
     const auto saved = planet::readWorldFile(folder_ / "saved.toml");
     ASSERT_TRUE(saved);
     EXPECT_EQ(saved->layers.size(), 2u);
     EXPECT_FALSE(saved->layers[0].on);
+    run(session, ui::RevertLayers{});
+    EXPECT_TRUE(view(session).edit->layers[0].on) << "the layers of the planet";
+    EXPECT_FALSE(view(session).edited);
+    EXPECT_TRUE(view(session).unsaved);
 }
 
 TEST_F(SourceControllerTest, ExistingFileIsReplacedOnlyIfTheUserSaysSo) {
@@ -177,7 +188,7 @@ TEST_F(SourceControllerTest, ExistingFileIsReplacedOnlyIfTheUserSaysSo) {
     EXPECT_FALSE(planet::isWorldFile(file));
     run(session, ui::SaveLayers{file, true});
     EXPECT_TRUE(view(session).replaces.empty());
-    EXPECT_FALSE(view(session).edited);
+    EXPECT_FALSE(view(session).unsaved);
     EXPECT_TRUE(planet::isWorldFile(file));
 }
 

@@ -213,7 +213,7 @@ void moveButtons(const EditorView& view, const std::vector<LayerRow>& rows, Sour
 
 std::string greyReason(const SourcesView& sources) {
     if (sources.baking) return "A bake is running.";
-    if (!sources.edited) return "Nothing is changed.";
+    if (!sources.edited) return "The planet was baked from these layers.";
     return sources.bakeProblem.empty() ? std::string() : "The layers cannot be baked as they are.";
 }
 
@@ -227,8 +227,9 @@ void bakeButtons(const SourcesView& sources, Commands& commands) {
         commands.emplace_back(BakeLayers{});
     endGrey();
     sameLineForButton("Revert");
-    beginGrey(!sources.edited, "Nothing is changed.");
-    if (button("Revert", "Restores the layers as they were opened or saved last."))
+    beginGrey(!sources.edited && !sources.unsaved, "Nothing is changed.");
+    if (button("Revert", sources.edited ? "Restores the layers that the planet was baked from."
+                                        : "Restores the layers as they were opened or saved last."))
         commands.emplace_back(RevertLayers{});
     endGrey();
     if (sources.edited && sources.bakeProblem.empty())

@@ -170,9 +170,12 @@ TEST_F(SourcesPanel, bakeIsPossibleOnlyIfSomethingIsChangedAndRight) {
         sources.bakeProblem = "scale is 0; expected another number";
     }));
     EXPECT_FALSE(bakes([](SourcesView& sources) { sources.edited = sources.baking = true; }));
-    const Commands revert = click("/Revert", [](SourcesView& sources) { sources.edited = true; });
-    ASSERT_FALSE(revert.empty());
-    EXPECT_NE(revert.back().as<RevertLayers>(), nullptr);
+    EXPECT_TRUE(click("/Revert").empty()) << "nothing is changed";
+    for (bool SourcesView::*const changed : {&SourcesView::edited, &SourcesView::unsaved}) {
+        const Commands revert = click("/Revert", [=](SourcesView& sources) { sources.*changed = true; });
+        ASSERT_FALSE(revert.empty());
+        EXPECT_NE(revert.back().as<RevertLayers>(), nullptr);
+    }
 }
 
 TEST_F(SourcesPanel, saveProposesAFileBesideTheSource) {
