@@ -13,7 +13,7 @@
 //   border_m = 20000                        soft border around circles and polygons, metres along the ground
 //   tau_factor = 0.5                        factor on the tolerance, [1/64, 64]
 //   least_level = 6                         levels, [0, 24]
-//   most_level = 12
+//   most_level = 12                         not less than least_level
 //   metric = "tight"                        or "additive"
 //
 // A region covers its circles and polygons together, at the heights in heights_m. Without circles and polygons it covers

@@ -158,6 +158,12 @@ Result<void> checkRegion(const Region& region) {
     if (region.tauFactor) TRY(checkRange("tau_factor", *region.tauFactor, leastTauFactor, mostTauFactor));
     if (region.leastLevel) TRY(checkRange("least_level", *region.leastLevel, 0, maxLevel));
     if (region.mostLevel) TRY(checkRange("most_level", *region.mostLevel, 0, maxLevel));
+    if (region.leastLevel.value_or(0) > region.mostLevel.value_or(maxLevel)) {
+        return badInput(
+            fmt::format("least_level: {0} is larger than most_level, {1}; expected at most {1}, or a "
+                        "larger most_level",
+                        *region.leastLevel, *region.mostLevel));
+    }
     if (region.heights) TRY(checkHeights(*region.heights));
     const auto named = [](std::string_view what, std::size_t i) {
         return [what, i](Error error) {

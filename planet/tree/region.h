@@ -17,7 +17,8 @@
 // Overlaps. At each place the strictest region wins, which is the one that demands the most detail: the smallest factor,
 // the largest least level, the largest of the largest levels, and the additive metric before the tight one. Precisely,
 // regions are laid over one another from the most lenient to the strictest, each with its weight, so that soft borders
-// stay soft within other regions. A least level overrules a largest level that is less. LodSettings::maxLevel limits both.
+// stay soft within other regions. A least level overrules a largest level of another region that is less.
+// LodSettings::maxLevel limits both.
 //
 // Chunks. Selection takes the strictest demand of any place in a chunk's area (region_set.h).
 #pragma once
@@ -75,7 +76,7 @@ struct Region {
     std::optional<int>
         leastLevel{};  // chunks of smaller levels are split, whatever their error; [0, maxLevel]
     std::optional<int>
-        mostLevel{};  // chunks of this level are not split, whatever their error; [0, maxLevel]
+        mostLevel{};  // chunks of this level are not split, whatever their error; [leastLevel, maxLevel]
     std::optional<ErrorMetric> metric{};
 
     bool operator==(const Region&) const = default;

@@ -50,6 +50,8 @@ std::vector<Region> randomRegions(Random& random, double radiusM, std::size_t co
         if (within(0, 1) < 0.8) region.tauFactor = std::exp2(within(-4, 4));
         if (within(0, 1) < 0.3) region.leastLevel = static_cast<int>(within(0, 5));
         if (within(0, 1) < 0.3) region.mostLevel = static_cast<int>(within(0, 5));
+        if (region.leastLevel > region.mostLevel && region.mostLevel)
+            std::swap(region.leastLevel, region.mostLevel);
         if (within(0, 1) < 0.3)
             region.metric = within(0, 1) < 0.5 ? ErrorMetric::Additive : ErrorMetric::Tight;
         // A star of long arms may have edges that meet after all.

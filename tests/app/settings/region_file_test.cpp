@@ -87,6 +87,11 @@ TEST(RegionFile, ErrorsNameTheLineTheEntryAndWhatIsRight) {
               "valley.regions.toml: line 3: region 1: circles: circle 1 is [ 46, 7 ]; expected [latitude, "
               "longitude, "
               "radius in metres]");
+    EXPECT_EQ(
+        refusalOf(start + "least_level = 5\nmost_level = 2\n"),
+        "valley.regions.toml: line 1: region 1 \"Valley\": least_level: 5 is larger than most_level, 2; "
+        "expected at most "
+        "2, or a larger most_level");
     EXPECT_EQ(refusalOf(start + "least_level = 25\n"),
               "valley.regions.toml: line 3: region 1: least_level is 25; expected an integer in [0, 24]");
     EXPECT_EQ(

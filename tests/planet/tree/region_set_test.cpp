@@ -326,7 +326,15 @@ TEST(Region, WrongValuesAreRefusedByName) {
     region.tauFactor.reset();
     region.leastLevel = maxLevel + 1;
     EXPECT_NE(refusal(region).find("least_level: 25 is out of range; expected [0, 24]"), std::string::npos);
+    region.leastLevel = 5;
+    region.mostLevel = 2;
+    EXPECT_NE(refusal(region).find(
+                  "least_level: 5 is larger than most_level, 2; expected at most 2, or a larger most_level"),
+              std::string::npos);
+    region.mostLevel = 5;
+    EXPECT_EQ(refusal(region), "");
     region.leastLevel.reset();
+    region.mostLevel.reset();
     region.heights = HeightBand{10, 5, 0};
     EXPECT_NE(refusal(region).find("heights_m: 10 to 5 is empty; expected the lowest height first"),
               std::string::npos);

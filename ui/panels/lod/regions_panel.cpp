@@ -208,17 +208,21 @@ void effectControls(Region& region) {
                    "Smaller: more triangles in the region. Larger: fewer triangles, more visible error.",
                    ImGuiSliderFlags_Logarithmic);
         });
-    const auto levelSlider = [](const char* label, const char* help) {
-        return [label, help](int& level) { slider(label, level, 0, 0, planet::maxLevel, "%d", help); };
+    const auto levelSlider = [](const char* label, int least, int most, const char* help) {
+        return [=](int& level) { slider(label, level, 0, least, most, "%d", help); };
     };
+    const int most = region.mostLevel.value_or(planet::maxLevel);
     optionalControl<int>(
-        "Least level", region.leastLevel, 4, "Chunks of smaller levels are split, whatever their error.",
-        levelSlider("At least", "Larger: more triangles in the region, however far away it is."));
+        "Least level", region.leastLevel, std::min(4, most),
+        "Chunks of smaller levels are split, whatever their error.",
+        levelSlider("At least", 0, most, "Larger: more triangles in the region, however far away it is."));
+    const int least = region.leastLevel.value_or(0);
     optionalControl<int>(
-        "Largest level", region.mostLevel, 8,
-        "Chunks of this level are not split, whatever their error. A least level that is larger "
-        "overrules it.",
-        levelSlider("At most", "Smaller: coarse ground near the camera, whatever the tolerance."));
+        "Largest level", region.mostLevel, std::max(8, least),
+        "Chunks of this level are not split, whatever their error. A larger least level of another "
+        "region overrules it.",
+        levelSlider("At most", least, planet::maxLevel,
+                    "Smaller: coarse ground near the camera, whatever the tolerance."));
     int metric = region.metric ? 1 + static_cast<int>(*region.metric) : 0;
     if (choiceIndex("Metric", metric, 0, "as set\0additive\0tight\0",
                     "The error metric in the region (LOD panel). It has no soft border.")) {
