@@ -54,14 +54,38 @@ std::string formatted(const char* format, T value) {
     return text.data();
 }
 
+// A number that is being typed into a slider. It is applied when the edit ends, because "60000" begins with "6".
+struct TypedNumber {
+    ImGuiID id = 0;  // of the slider; 0: none
+    double value = 0;
+};
+TypedNumber typedNumber;
+
+// Draws ImGui's slider, which would apply a typed number with each key. Returns true if the value has changed.
+template <class T>
+bool scalarSlider(T& value, T min, T max, const char* format, ImGuiSliderFlags flags) {
+    const ImGuiID id = ImGui::GetID("##value");
+    const bool wasTyped = ImGui::TempInputIsActive(id);
+    const T before = value;
+    ImGui::SliderScalar("##value", std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32,
+                        &value, &min, &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::TempInputIsActive(id)) {
+        typedNumber = {id, static_cast<double>(value)};
+        value = before;
+    } else if (typedNumber.id == id) {
+        // Another control may have taken the keys before this one saw the end of its edit.
+        if (!wasTyped) value = static_cast<T>(typedNumber.value);
+        typedNumber = {};
+    }
+    return value != before;
+}
+
 template <class T>
 bool sliderOf(const char* label, T& value, T defaultValue, T min, T max, const char* format, Tip tip,
               ImGuiSliderFlags flags) {
     ImGui::PushID(label);
     litLabel(label, value != defaultValue, tip);
-    bool changed =
-        ImGui::SliderScalar("##value", std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32,
-                            &value, &min, &max, format, flags | ImGuiSliderFlags_AlwaysClamp);
+    bool changed = scalarSlider(value, min, max, format, flags);
     noteItem(label);
     tooltip(tip);
     if (offerDefault("default", value == defaultValue, formatted(format, defaultValue))) {

@@ -73,7 +73,8 @@ void labelledControl(const char* label, Tip tip);
 void litLabel(const char* label, bool changed, Tip tip);
 
 // Draw a label, a control and a tooltip. The label is lit if the value is not its default; a right click on
-// the control offers the default. Ctrl+click types a number. They return true if the value has changed.
+// the control offers the default. Ctrl+click types a number, which is applied when the edit ends. They return true if the
+// value has changed.
 // Settings have their own controls (ui/kit/setting_controls.h).
 bool slider(const char* label, double& value, double defaultValue, double min, double max, const char* format,
             Tip tip, ImGuiSliderFlags flags = 0);

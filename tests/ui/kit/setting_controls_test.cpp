@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "tests/support/panel_fixture.h"
 
@@ -46,6 +47,77 @@ TEST_F(SettingControlsTest, aPanelMayNarrowARange) {
     };
     click(fieldsOf(settings_), "/surface.sun_day", 0.999f, draw);
     EXPECT_EQ(settings_.surface.sunDate.day, 28);
+}
+
+class TypedNumbers : public SettingControlsTest {
+protected:
+    TypedNumbers() {
+        ImGuiIO& io = ImGui::GetIO();
+        for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = 300 + key;
+        frame();
+    }
+    void frame() {
+        window_.frame([&] {
+            const SettingControls control(settings_);
+            control(settings_.budget.triangles);
+            control(settings_.lod.tauPx);
+        });
+        seen_.push_back(settings_.budget.triangles);
+    }
+    void press(int key) {
+        for (const bool down : {true, false}) {
+            ImGui::GetIO().KeysDown[300 + key] = down;
+            frame();
+        }
+    }
+    // Types digits, one in each frame, and notes the budget after each.
+    void type(const char* digits) {
+        ImGui::GetIO().KeyCtrl = true;
+        window_.click("/budget.triangles", 0.5f, [&] { frame(); });
+        ImGui::GetIO().KeyCtrl = false;
+        frame();
+        for (; *digits; ++digits) {
+            ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*digits));
+            frame();
+        }
+    }
+    // Returns the values that the budget has had, without repetitions.
+    std::vector<int> had() const {
+        std::vector<int> values = seen_;
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+        return values;
+    }
+
+    std::vector<int> seen_;
+};
+
+TEST_F(TypedNumbers, areAppliedWhenEnterEndsTheEdit) {
+    type("60000");
+    EXPECT_EQ(had(), std::vector<int>{0});
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(had(), (std::vector<int>{0, 60000}));
+}
+
+TEST_F(TypedNumbers, areAppliedWhenAClickEndsTheEdit) {
+    type("60000");
+    window_.click("/lod.tau_px", 0.5f, [&] { frame(); });
+    frame();
+    EXPECT_EQ(had(), (std::vector<int>{0, 60000}));
+}
+
+TEST_F(TypedNumbers, areAppliedWhenTabEndsTheEdit) {
+    type("60000");
+    press(ImGuiKey_Tab);
+    frame();
+    frame();
+    EXPECT_EQ(had(), (std::vector<int>{0, 60000}));
+}
+
+TEST_F(TypedNumbers, areForgottenByEscape) {
+    type("60000");
+    press(ImGuiKey_Escape);
+    frame();
+    EXPECT_EQ(had(), std::vector<int>{0});
 }
 
 TEST_F(SettingControlsTest, aBoxIsSwitchedAndFoundByItsLabelToo) {
