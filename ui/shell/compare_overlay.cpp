@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/percent_text.h"
 #include "app/base/text.h"
 #include "ui/kit/item_map.h"
 #include "ui/kit/theme.h"
@@ -79,9 +80,7 @@ std::string differenceText(const CompareView& compare, const CompareSettings& sh
     std::vector<std::string> texts = {what};
     if (compare.difference) {
         const PictureDifferenceNow& now = *compare.difference;
-        const double share =
-            100.0 * static_cast<double>(now.pixels) / static_cast<double>(std::max<std::uint64_t>(now.of, 1));
-        const std::string many = fmt::format("{:.2g} % differ", share);
+        const std::string many = percentText(now.pixels, now.of) + " differ";
         if (now.pixels == 0)
             texts = {what + "   no pixel differs", "no pixel differs"};
         else

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/base/percent_text.h"
 #include "app/base/text.h"
 #include "ui/kit/setting_controls.h"
 #include "ui/kit/tables.h"
@@ -184,9 +185,7 @@ void pictureControls(const CompareView& compare, ViewSettings& settings) {
     std::string largest = pixels;
     if (compare.difference) {
         const PictureDifferenceNow& now = *compare.difference;
-        const double share =
-            100.0 * static_cast<double>(now.pixels) / static_cast<double>(std::max<std::uint64_t>(now.of, 1));
-        pixels = fmt::format("{} ({:.2g} %)", now.pixels, share);
+        pixels = fmt::format("{} ({})", now.pixels, percentText(now.pixels, now.of));
         largest = fmt::format("{} of 255", now.largestSteps);
     }
     valueRow("Pixels that differ", pixels,
