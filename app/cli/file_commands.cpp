@@ -236,13 +236,15 @@ constexpr std::array<std::string_view, 5> layerKindNames = {"rasters", "image", 
 Json sourceJson(const FileCommandOptions& options, const SourceProbe& probe) {
     Json json = {
         {"source", options.source.string()}, {"fill_m", probe.source->fillM}, {"layers", Json::array()}};
-    for (const planet::SourceReading& reading : probe.readings) {
+    const std::vector<double> shares = planet::sharesOf(*probe.source, probe.readings);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const planet::SourceReading& reading = probe.readings[i];
         const planet::SourceLayer& layer = probe.source->layers[reading.layer];
         Json entry = {{"layer", layer.name},
                       {"kind", layerKindNames[static_cast<std::size_t>(layer.kind)]},
                       {"join", planet::nameOf(layer.join)},
                       {"height_m", reading.heightM ? Json(*reading.heightM) : Json(nullptr)},
-                      {"weight", reading.heightM ? Json(reading.weight) : Json(nullptr)},
+                      {"share", reading.heightM ? Json(shares[i]) : Json(nullptr)},
                       {"void", reading.isVoid}};
         if (!reading.file.empty()) {
             entry["file"] = reading.file.string();
@@ -256,8 +258,10 @@ Json sourceJson(const FileCommandOptions& options, const SourceProbe& probe) {
 
 void printSource(const FileCommandOptions& options, const SourceProbe& probe) {
     fmt::print("\n{}, the top layer first:\n{:28}{:>14}{:>8}  {}\n", options.source.string(), "layer",
-               "height, m", "weight", "sample: column, row");
-    for (const planet::SourceReading& reading : probe.readings) {
+               "height, m", "share", "sample: column, row");
+    const std::vector<double> shares = planet::sharesOf(*probe.source, probe.readings);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const planet::SourceReading& reading = probe.readings[i];
         const std::string height = reading.heightM  ? fmt::format("{:.3f}", *reading.heightM)
                                    : reading.isVoid ? "void"
                                                     : "not here";
@@ -265,7 +269,7 @@ void printSource(const FileCommandOptions& options, const SourceProbe& probe) {
                                                         : fmt::format("{}: {}, {}", reading.file.string(),
                                                                       reading.column, reading.row);
         fmt::print("{:28}{:>14}{:>8}  {}\n", probe.source->layers[reading.layer].name, height,
-                   reading.heightM ? fmt::format("{:.3f}", reading.weight) : "", sample);
+                   reading.heightM ? fmt::format("{:.3f}", shares[i]) : "", sample);
     }
     if (!planet::topmost(probe.readings))
         fmt::print("No layer has a height here; fill_m is {} m.\n", probe.source->fillM);

@@ -51,7 +51,7 @@ struct SourceReading {
     std::int64_t column = 0;       // of the sample in the file, from the left and from the top
     std::int64_t row = 0;
     bool isVoid = false;  // the sample has no height; heightM then is what LayerVoids says
-    double weight = 1;    // the layer's share by its feather, [0, 1]
+    double weight = 1;    // of the layer over what lies under it, by its feather, [0, 1]
 };
 
 // The layers of an open source. Copies share the open files. Several threads may call at once.
@@ -62,6 +62,12 @@ struct SourceLayers {
     // Error names a file that cannot be read.
     std::function<Result<std::vector<SourceReading>>(const Geographic& place)> at;
 };
+
+// Returns the share of each reading in the height that a bake shows: that height is the sum of the readings' heights times
+// their shares, and of what is left of 1 times fillM. A layer that others cover has a share of 0. Layers that are added have
+// shares of their own beside those of the layers under them, which together may exceed 1.
+// readings: all of a place, as SourceLayers::at returns them.
+std::vector<double> sharesOf(const SourceLayers& layers, std::span<const SourceReading> readings);
 
 // Returns the first reading with a height, that of the topmost layer; null if no layer has one.
 const SourceReading* topmost(std::span<const SourceReading> readings);

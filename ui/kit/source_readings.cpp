@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <glm/trigonometric.hpp>
+#include <vector>
 
 #include "app/base/text.h"
 #include "app/scene/overlay_colours.h"
@@ -25,7 +28,7 @@ void stateOf(const SourcesView& sources, Commands& commands) {
         commands.emplace_back(ReadSource{});
 }
 
-void readingRow(const SourcesView& sources, const planet::SourceReading& reading, bool isTop) {
+void readingRow(const SourcesView& sources, const planet::SourceReading& reading, double share, bool isTop) {
     const ImVec4& colour = isTop ? palette().text : palette().dim;
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -44,7 +47,7 @@ void readingRow(const SourcesView& sources, const planet::SourceReading& reading
         });
     }
     rightCell(heightText(reading), colour);
-    rightCell(reading.heightM ? fmt::format("{:.0f} %", 100 * reading.weight) : std::string(), colour);
+    rightCell(reading.heightM ? fmt::format("{:.0f} %", 100 * share) : std::string(), colour);
 }
 
 }  // namespace
@@ -67,27 +70,32 @@ void sourceReadings(const char* id, const SourcesView& sources, const std::optio
             "Height of the sample nearest to the place, after scale, offset and datum. A bake interpolates "
             "between samples.",
             "-1000.0 m", false},
-        TableColumn{"Share", 0, "Share of the layer by its feather.", "100 %", false}};
+        TableColumn{"Share", 0,
+                    "Share of the sample in the height that a bake shows here. 0 %: other layers cover the "
+                    "layer. Layers that are "
+                    "added have shares of their own beside those under them.",
+                    "100 %", false}};
     const planet::SourceReading* const top = planet::topmost(place->readings);
     std::size_t lines = 1;  // the lines of a sample are a little apart
     for (const planet::SourceReading& reading : place->readings) lines += reading.file.empty() ? 1 : 2;
     if (beginListTable(id, columns, lines)) {
         using Reading = planet::SourceReading;
         const std::vector<Reading>& readings = place->readings;
+        const std::vector<double> shares = planet::sharesOf(*sources.layers, readings);
         for (std::size_t row = 0; row < readings.size(); ++row)
-            tableRow(row, [&] { readingRow(sources, readings[row], &readings[row] == top); });
-        const auto ifIn = [](const Reading& reading, std::int64_t value) {
-            return reading.file.empty() ? ExportCell() : ExportCell(value);
+            tableRow(row, [&] { readingRow(sources, readings[row], shares[row], &readings[row] == top); });
+        const auto ifIn = [&](std::size_t row, std::int64_t value) {
+            return readings[row].file.empty() ? ExportCell() : ExportCell(value);
         };
-        endTable(exportTable<Reading>(
-            "source", readings.size(), [&](std::size_t row) { return readings[row]; },
-            {{"layer", [&](const Reading& reading) { return sources.layers->layers[reading.layer].name; },
+        endTable(exportTable<std::size_t>(
+            "source", readings.size(), [](std::size_t row) { return row; },
+            {{"layer", [&](std::size_t row) { return sources.layers->layers[readings[row].layer].name; },
               true},
-             {"height_m", [](const Reading& reading) { return reading.heightM; }},
-             {"weight", [](const Reading& reading) { return reading.weight; }},
-             {"file", [](const Reading& reading) { return reading.file.string(); }},
-             {"column", [=](const Reading& reading) { return ifIn(reading, reading.column); }},
-             {"row", [=](const Reading& reading) { return ifIn(reading, reading.row); }}}));
+             {"height_m", [&](std::size_t row) { return readings[row].heightM; }},
+             {"share", [&](std::size_t row) { return shares[row]; }},
+             {"file", [&](std::size_t row) { return readings[row].file.string(); }},
+             {"column", [&](std::size_t row) { return ifIn(row, readings[row].column); }},
+             {"row", [&](std::size_t row) { return ifIn(row, readings[row].row); }}}));
     }
     noteItem("Readings");
     if (!top)

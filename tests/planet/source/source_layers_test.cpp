@@ -147,6 +147,44 @@ TEST_F(SourceLayersTest, FeatherSaysItsWeight) {
     EXPECT_NEAR(blended, 300 + half * (own - 300), 2);
 }
 
+// Returns the height that the readings make with their shares.
+double sharedHeightM(const HeightSource& source, const std::vector<SourceReading>& readings) {
+    const std::vector<double> shares = sharesOf(*source.layers, readings);
+    double heightM = 0, rest = 1;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        heightM += shares[i] * readings[i].heightM.value_or(0);
+        if (source.layers->layers[readings[i].layer].join != LayerJoin::Add) rest -= shares[i];
+    }
+    return heightM + rest * source.layers->fillM;
+}
+
+TEST_F(SourceLayersTest, SharesMakeTheHeightThatABakeShows) {
+    const HeightSource plain = plainAndField("");
+    EXPECT_EQ(sharesOf(*plain.layers, readingsAt(plain, latitudeOf(30), longitudeOf(20))),
+              (std::vector<double>{1, 0}))
+        << "the layer that is covered shows nothing";
+    EXPECT_EQ(sharesOf(*plain.layers, readingsAt(plain, latitudeOf(50), longitudeOf(50))),
+              (std::vector<double>{0, 1}))
+        << "a void";
+    EXPECT_EQ(sharesOf(*plain.layers, readingsAt(plain, -20, 100)), (std::vector<double>{0, 0}));
+    for (const char* const keys :
+         {"", "feather_m = 2000\n", "feather_m = 2000\njoin = \"max\"\n",
+          "feather_m = 2000\njoin = \"add\"\n", "join = \"max\"\noffset_m = -9000\n"}) {
+        const HeightSource source = plainAndField(keys);
+        for (const double row : {4.5, 30.0, 50.0}) {
+            // Its grid point is up to 1e-5 degrees away.
+            const double bakedM =
+                static_cast<double>(sampledNear(source, test::finest, latitudeOf(row), longitudeOf(20)));
+            const auto readings = readingsAt(source, latitudeOf(row), longitudeOf(20));
+            EXPECT_NEAR(sharedHeightM(source, readings), bakedM, row == 4.5 ? 60 : 2) << keys << row;
+        }
+    }
+    const HeightSource hidden = plainAndField("join = \"max\"\noffset_m = -9000\n");
+    EXPECT_EQ(sharesOf(*hidden.layers, readingsAt(hidden, latitudeOf(30), longitudeOf(20))),
+              (std::vector<double>{0, 1}))
+        << "the lower one of two layers of which the higher one counts";
+}
+
 TEST_F(SourceLayersTest, PlaceBeyondALayerHasNoReadingOfIt) {
     const auto readings = readingsAt(plainAndField(""), 45.5, 10);
     ASSERT_EQ(readings.size(), 2u);
