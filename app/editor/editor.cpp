@@ -523,6 +523,8 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
             },
             [&](const ui::FrameCommand& c) { worldy::execute(frames_, c); },
             [&](const ui::FileCommand& c) {
+                const auto* const file = std::get_if<ui::OpenFile>(&c);
+                if (file && file->asks && takeDroppedFile(bakes_.sources, file->file)) return;
                 worldy::execute(files_, c, {session, settings_, camera_, replaying()}, notices_, next);
             },
             [&](const ui::BakeCommand& c) {

@@ -88,8 +88,8 @@ void advanceSources(SourceController& sources, const SourceFrame& frame, const L
 void execute(SourceController& sources, const ui::SourceCommand& command, const OpenPlanet* open,
              Workspace& workspace, Notices& notices, ui::Commands& next);
 
-// Takes a dropped file that could become a layer of the shown planet; the user is asked about it. Returns false for any
-// other file.
+// Takes a file that was dropped or chosen in the open dialog if it could become a layer of the shown planet; the user is asked
+// about it. Returns false for any other file.
 bool takeDroppedFile(SourceController& sources, const std::filesystem::path& file);
 
 // Valid until the sources change.

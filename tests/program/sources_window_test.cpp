@@ -45,7 +45,9 @@ TEST_F(SourcesProgram, ProbeSaysWhichSampleMadeTheHeight) {
     EXPECT_EQ(source["layers"][0]["file"], "mesa.tif");
     EXPECT_EQ(source["layers"][0]["column"], 60);
     EXPECT_EQ(source["layers"][0]["row"], 40);
+    EXPECT_EQ(source["layers"][0]["share"], 1);
     EXPECT_EQ(source["layers"][1]["kind"], "image");
+    EXPECT_EQ(source["layers"][1]["share"], 0) << "the mesa covers it";
     const Ran text = runWorldy(folder, "probe world.chk 22 12 --source world.toml");
     EXPECT_THAT(text.output, HasSubstr("mesa.tif: 60, 40"));
     EXPECT_FALSE(
@@ -81,6 +83,8 @@ TEST_F(SourcesProgram, DroppedRastersBecomeALayerOrAPlanet) {
 drop() { ')sh" DROP_FILE_BINARY R"sh(' Worldy "$PWD/$1" || echo "the window does not take $1"; }
 opened="$(counter file)"
 drop second.tif; expect shown "drop/Add as a layer"; key Escape; expect hidden "drop/Add as a layer"
+key ctrl+o; enter open/Path "$PWD/second.tif"; expect shown "drop/Add as a layer"; key Escape; expect hidden "drop/Add as a layer"
+[ "$(counter file)" = "$opened" ] || echo "the planet is replaced without a question"
 drop second.tif; expect shown "drop/Add as a layer"; click "drop/Add as a layer"
 expect shown "sources/layer second.tif"
 before=$(viewport); click sources/Bake; expect says 'Baking .*worlds/'; expect counts baking -eq 0; settle

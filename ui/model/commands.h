@@ -124,6 +124,7 @@ using FrameCommand = std::variant<PauseFrames, StepFrame, DrawAtFullSpeed, Recor
 // Files.
 struct OpenFile {  // a chunk file, an elevation image, a cube face, a settings file or a screenshot
     std::filesystem::path file;
+    bool asks = false;  // about a raster that could become a layer of the open planet
 };
 enum class FilePurpose : std::uint8_t { Open, BakedColours, SideB, TraceB, EarlierAtlas };
 struct AskForFile {  // shows the dialog that asks for a file

@@ -20,7 +20,7 @@ std::string questionOf(const SourcesView& sources) {
 }  // namespace
 
 void dropQuestion(const SourcesView& sources, Commands& commands) {
-    constexpr const char* popup = "Dropped rasters###drop question";
+    constexpr const char* popup = "Open rasters###drop question";
     if (sources.dropped.empty()) return;
     if (!ImGui::IsPopupOpen(popup)) ImGui::OpenPopup(popup);
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});

@@ -1,4 +1,4 @@
-// Asks what to do with rasters that were dropped onto the window.
+// Asks what to do with rasters that were dropped onto the window or chosen in the open dialog.
 #pragma once
 
 #include "ui/model/commands.h"

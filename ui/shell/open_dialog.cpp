@@ -96,7 +96,7 @@ bool accept(OpenDialogState& state, Commands& commands) {
     }
     switch (state.purpose) {
         case FilePurpose::Open:
-            commands.push_back(OpenFile{path});
+            commands.push_back(OpenFile{path, true});
             break;
         case FilePurpose::BakedColours:
             commands.push_back(ChooseColourImage{path});
