@@ -28,6 +28,12 @@ void setPath(OpenDialogState& state, const std::string& path) {
     state.path[length] = '\0';
 }
 
+// Lists a folder that the user has entered. The field holds its path, so that it agrees with the list.
+void showFolder(const fs::path& folder, OpenDialogState& state) {
+    listFolder(folder, state);
+    setPath(state, state.folder.string());
+}
+
 // Draws the entries. A click picks one; a double click enters a folder or opens a file. Returns true if the
 // file is to be opened.
 bool entryRows(OpenDialogState& state) {
@@ -61,7 +67,7 @@ bool entryRows(OpenDialogState& state) {
         ImGui::TableNextColumn();
         if (!entry.isFolder) ImGui::TextDisabled("%s", bytesText(entry.bytes).c_str());
     }
-    if (!entered.empty()) listFolder(entered, state);
+    if (!entered.empty()) showFolder(entered, state);
     return chosen;
 }
 
@@ -91,8 +97,13 @@ bool accept(OpenDialogState& state, Commands& commands) {
     if (path.empty()) return false;
     std::error_code status;
     if (fs::is_directory(path, status)) {
-        listFolder(path, state);
+        showFolder(path, state);
         return false;
+    }
+    // The next time, the list shows the file. Other sources are text or a pattern and have no folder.
+    if (fs::exists(path, status)) {
+        showFolder(fs::absolute(path, status).parent_path(), state);
+        setPath(state, (state.folder / path.filename()).string());
     }
     switch (state.purpose) {
         case FilePurpose::Open:
@@ -197,7 +208,8 @@ void openDialog(OpenDialogState& state, Commands& commands) {
                                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
         return;
     setItemScope("open");
-    if (ImGui::Button("Up") && state.folder.has_parent_path()) listFolder(state.folder.parent_path(), state);
+    if (ImGui::Button("Up") && state.folder.has_parent_path()) showFolder(state.folder.parent_path(), state);
+    noteItem("Up");
     ImGui::SameLine();
     ImGui::TextUnformatted(state.folder.string().c_str());
     bool accepted = folderList(state);
@@ -212,6 +224,7 @@ void openDialog(OpenDialogState& state, Commands& commands) {
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     noteItem("Path");
     accepted |= ImGui::Button(texts.accept);
+    noteItem(texts.accept);
     ImGui::SameLine();
     // Esc closes popups, but a text field consumes it, so it is handled here.
     const bool left =
