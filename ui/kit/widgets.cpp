@@ -350,6 +350,17 @@ void wrappedText(const std::string& text, const ImVec4& colour) {
     ImGui::PopStyleColor();
 }
 
+void shortenedText(const std::string& text, const ImVec4& colour, float roomPx) {
+    std::string shown = text;
+    for (std::size_t end = text.size(); end > 0 && ImGui::CalcTextSize(shown.c_str()).x > roomPx;
+         shown = text.substr(0, end) + "...") {
+        --end;
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u)
+            --end;  // of a UTF-8 sequence
+    }
+    ImGui::TextColored(colour, "%s", shown.c_str());
+}
+
 void emptyState(const char* text) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const float wrap = std::min(room.x * 0.9f, ImGui::GetFontSize() * 22);

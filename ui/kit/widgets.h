@@ -108,6 +108,9 @@ float checkboxWidth(const char* label);
 // Draws text wrapped at the panel's width.
 void wrappedText(const std::string& text, const ImVec4& colour);
 
+// Draws a text. If it is wider than its room, the longest beginning that fits is followed by an ellipsis.
+void shortenedText(const std::string& text, const ImVec4& colour, float roomPx);
+
 // Draws a centred line that says why the panel is empty.
 void emptyState(const char* text);
 

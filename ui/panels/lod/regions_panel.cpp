@@ -35,6 +35,9 @@ namespace {
 using planet::Region;
 using Regions = std::vector<Region>;
 
+constexpr float leastNameEms = 8;  // of the names' room, if they need it
+constexpr float leastEffectEms = 3;
+
 constexpr const char* noRegion = "There is no region. Add one first.";
 
 std::string freeName(const Regions& regions) {
@@ -104,8 +107,9 @@ void regionRow(std::size_t index, Region& region, RegionsPanelState& state) {
     noteItem(fmt::format("region {}", region.name));
     tooltip("Click to edit or paint the region.");
     ImGui::TableNextColumn();
-    ImGui::TextColored(palette().dim, "%s", effectText(region).c_str());
-    tooltip(placeText(region).c_str());
+    const std::string effect = effectText(region);
+    shortenedText(effect, palette().dim, ImGui::GetContentRegionAvail().x);
+    tooltip([&] { return fmt::format("{}\n{}", effect, placeText(region)); });
 }
 
 void regionList(Regions& regions, RegionsPanelState& state) {
@@ -116,8 +120,19 @@ void regionList(Regions& regions, RegionsPanelState& state) {
     if (!beginPlainTable("regions", 4, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("on");
     ImGui::TableSetupColumn("chip");
+    // Names keep their room, and effects are shortened.
+    const float font = ImGui::GetFontSize();
+    float name = 0, effect = 0;
+    for (const Region& region : regions) {
+        name = std::max(name, ImGui::CalcTextSize(region.name.c_str()).x);
+        effect = std::max(effect, ImGui::CalcTextSize(effectText(region).c_str()).x);
+    }
+    const float room = ImGui::GetContentRegionAvail().x - checkboxWidth("") - ImGui::GetTextLineHeight() -
+                       6 * ImGui::GetStyle().CellPadding.x;
+    const float effectWidth =
+        std::clamp(room - std::min(name, leastNameEms * font), leastEffectEms * font, effect + 1);
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("effect");
+    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, effectWidth);
     for (std::size_t i = 0; i < regions.size(); ++i) tableRow(i, [&] { regionRow(i, regions[i], state); });
     endTable(exportTable<const Region*>("regions", regions.size(),
                                         [&](std::size_t row) { return &regions[row]; },
@@ -176,8 +191,9 @@ void fileControls(const EditorView& view, bool isEmpty, Commands& commands) {
     endGrey();
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(files.hasUnsavedRegions ? palette().warning : palette().dim, "%s",
-                       files.hasUnsavedRegions ? "not saved" : files.regionsFile.filename().string().c_str());
+    shortenedText(files.hasUnsavedRegions ? "not saved" : files.regionsFile.filename().string(),
+                  files.hasUnsavedRegions ? palette().warning : palette().dim,
+                  ImGui::GetContentRegionAvail().x);
     tooltip(files.regionsFile.string().c_str());
     if (!files.regionsQuestion.empty()) saveQuestion(files, commands);
 }

@@ -84,6 +84,37 @@ TEST_F(RegionsPanel, theControlsEditTheChosenRegion) {
     EXPECT_FALSE(settings_.regions.on);
 }
 
+TEST_F(RegionsPanel, theLevelsOfARegionStayInOrder) {
+    click("Add");
+    click("Largest level", 0.05f);
+    click("At most", 0.001f);
+    EXPECT_EQ(regions()[0].mostLevel, 0);
+    click("Least level", 0.05f);
+    EXPECT_EQ(regions()[0].leastLevel, 0);
+    click("At least", 0.999f);
+    EXPECT_EQ(regions()[0].leastLevel, 0);
+    click("At most", 0.999f);
+    EXPECT_EQ(regions()[0].mostLevel, planet::maxLevel);
+    click("At least", 0.999f);
+    EXPECT_EQ(regions()[0].leastLevel, planet::maxLevel);
+    EXPECT_EQ(state_.problem, "");
+}
+
+TEST_F(RegionsPanel, namesKeepTheirRoomInANarrowPanel) {
+    click("Add");
+    click("Least level", 0.05f);
+    click("Largest level", 0.05f);
+    std::vector<planet::Region> all = regions();
+    all[0].name = "Region 12";
+    settings_.regions.list = std::make_shared<const std::vector<planet::Region>>(all);
+    PanelWindow::resize({200, 1400});
+    frame();
+    frame();
+    const ItemPlace* const row = window_.find("region Region 12");
+    ASSERT_NE(row, nullptr);
+    EXPECT_GE(row->rect.width, ImGui::CalcTextSize("Region 12").x);
+}
+
 TEST_F(RegionsPanel, savingAsksForTheFileBesideThePlanet) {
     click("Save");
     EXPECT_TRUE(commands_.empty()) << "there is nothing to save";
