@@ -11,6 +11,7 @@
 #include <numeric>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -128,6 +129,17 @@ std::vector<ListedChunk> listedChunks(const AtlasTree& tree) {
     return all;
 }
 
+// Returns the chunks above a level that have changed chunks below them.
+std::unordered_set<ChunkId> chunksAbove(const std::vector<AtlasChunkChange>& changes, int level) {
+    std::unordered_set<ChunkId> above;
+    for (const AtlasChunkChange& one : changes) {
+        for (int up = std::min(int{one.chunk.level}, level); up-- > 0;) {
+            if (!above.insert(ancestorOf(one.chunk, up)).second) break;
+        }
+    }
+    return above;
+}
+
 std::optional<AtlasChange> changeOf(const AtlasChunk& old, const AtlasChunk& now) {
     if (old.deltaCM != now.deltaCM) return AtlasChange::Error;
     if (old.digest == now.digest && old.isSummary == now.isSummary) return std::nullopt;
@@ -194,11 +206,12 @@ std::uint64_t AtlasChangedArea::sum() const {
 }
 
 std::vector<AtlasChangedArea> changedAreas(const std::vector<AtlasChunkChange>& changes, int level) {
+    const std::unordered_set<ChunkId> above = chunksAbove(changes, level);
     std::map<ChunkId, AtlasChangedArea> byCell;
     for (const AtlasChunkChange& one : changes) {
         // Almost any change of a bake changes the chunks above it too, which say nothing about the place.
-        if (one.chunk.level < level && one.change != AtlasChange::Added && one.change != AtlasChange::Removed)
-            continue;
+        const bool isOnePlace = one.change == AtlasChange::Added || one.change == AtlasChange::Removed;
+        if (!isOnePlace && above.contains(one.chunk)) continue;
         const ChunkId cell = ancestorOf(one.chunk, level);
         AtlasChangedArea& area = byCell[cell];
         area.cell = cell;

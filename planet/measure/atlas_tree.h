@@ -50,14 +50,15 @@ std::vector<AtlasChunkChange> changesBetween(const AtlasTree& old, const AtlasTr
 
 // Changes that lie together: all those at and below one cell of a level.
 struct AtlasChangedArea {
-    ChunkId cell;  // of the level, or the coarser chunk that changed
+    ChunkId cell;  // of the level, or a coarser chunk
     std::array<std::uint64_t, atlasChangeCount> chunks{};
     double leastRatio = 1;  // of new to old δc, over the chunks with another δc
     double mostRatio = 1;
 
     std::uint64_t sum() const;
 };
-// Returns the areas, those with the most changed chunks first.
+// Returns the areas, those with the most changed chunks first. A chunk above the level is an area of its own if it was
+// added or removed, or if no chunk below it has changed, as with the leaves of a planet or place that ends above the level.
 std::vector<AtlasChangedArea> changedAreas(const std::vector<AtlasChunkChange>& changes, int level);
 
 }  // namespace planet

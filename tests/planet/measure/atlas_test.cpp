@@ -348,6 +348,39 @@ TEST(Atlas, ACountryWithHalvedErrorsIsFoundAndPlaced) {
     EXPECT_DOUBLE_EQ(areas[0].leastRatio, 0.5);
 }
 
+TEST(Atlas, ChangedLeavesAboveTheLevelOfAreasAreAreasOfTheirOwn) {
+    const auto changes = changesBetween(treeOf(fakePyramid()), treeOf(withHalvedErrors()));
+    const int belowAll = deepestLevelOf(fakePyramid().shape) + 3;
+    int finest = 0;
+    for (const AtlasChunkChange& change : changes) finest = std::max(finest, int{change.chunk.level});
+    const auto areas = changedAreas(changes, belowAll);
+    ASSERT_EQ(areas.size(), std::size_t{1} << 2 * (finest - country.level));
+    for (const AtlasChangedArea& area : areas) {
+        EXPECT_EQ(area.cell.level, finest) << toString(area.cell);
+        EXPECT_TRUE(isAtOrUnder(area.cell, country));
+        EXPECT_EQ(area.sum(), 1u);
+        EXPECT_DOUBLE_EQ(area.leastRatio, 0.5);
+    }
+    EXPECT_TRUE(changedAreas({}, belowAll).empty());
+}
+
+TEST(Atlas, ACoarseLeafThatChangedIsListedBesideFinerAreas) {
+    const ChunkId leaf{Face::NegY, 2, 1, 1};
+    const ChunkId fine{Face::PosX, 7, 5, 6};
+    const auto areas = changedAreas({{leaf, AtlasChange::Heights, 1, 1},
+                                     {ancestorOf(fine, 0), AtlasChange::Error, 1, 2},
+                                     {ancestorOf(fine, 4), AtlasChange::Error, 1, 2},
+                                     {ancestorOf(fine, 6), AtlasChange::Error, 1, 4},
+                                     {fine, AtlasChange::Heights, 1, 1}},
+                                    5);
+    ASSERT_EQ(areas.size(), 2u);
+    EXPECT_EQ(areas[0].cell, ancestorOf(fine, 5));
+    EXPECT_EQ(areas[0].sum(), 2u);
+    EXPECT_DOUBLE_EQ(areas[0].mostRatio, 4);
+    EXPECT_EQ(areas[1].cell, leaf);
+    EXPECT_EQ(areas[1].sum(), 1u);
+}
+
 TEST(Atlas, ARegionWithALimitedLevelIsFoundAndPlaced) {
     AtlasSettings limited = smallSettings();
     const Geographic middle = geographicFromDirection(middleOf(country));
