@@ -205,7 +205,7 @@ Result<bool> runSuggestCommand(const SuggestOptions& options) {
         printSuggestion(outcome, written);
     std::error_code unknown;
     if (outcome.regionsText.empty() && fs::exists(request.regionsFile, unknown)) {
-        fmt::print(stderr, "{}: is of an earlier suggestion; this one has no regions\n",
+        fmt::print(stderr, "{}: is not of this suggestion, which has no regions, and was left as it is\n",
                    request.regionsFile.string());
     }
     return outcome.isMet;

@@ -15,10 +15,12 @@
 #include "app/settings/settings_text.h"
 #include "app/suggest/suggest_budget.h"
 #include "app/suggest/suggest_page.h"
+#include "app/suggest/suggest_plans.h"
 #include "app/suggest/suggest_report.h"
 #include "app/suggest/suggest_run.h"
 #include "planet/base/result.h"
 #include "planet/base/try.h"
+#include "planet/tree/region.h"
 
 namespace worldy {
 
@@ -40,6 +42,27 @@ Result<void> checkReadBack(const SuggestFiles& files, const SuggestRequest& requ
     if (regions == outcome.settings.regions.all()) return {};
     return planet::ioError(fmt::format("{}: does not read back as it was measured; expected the same regions",
                                        files.regions.string()));
+}
+
+// Returns whether a regions file has regions that a suggestion has named. Others may be the user's own.
+bool holdsSuggestedRegions(const fs::path& file) {
+    std::error_code status;
+    if (!fs::is_regular_file(file, status)) return false;
+    const auto regions = loadRegions(file);
+    return regions && std::ranges::any_of(*regions, [](const planet::Region& region) {
+               return isSuggestedName(region.name);
+           });
+}
+
+// A file of an earlier suggestion must not be taken for one of this suggestion, which has no regions.
+Result<void> removeEarlierRegions(const fs::path& file) {
+    if (!holdsSuggestedRegions(file)) return {};
+    std::error_code status;
+    fs::remove(file, status);
+    if (!status) return {};
+    return planet::ioError(
+        fmt::format("{}: holds the regions of an earlier suggestion and cannot be removed: {}", file.string(),
+                    status.message()));
 }
 
 }  // namespace
@@ -108,6 +131,8 @@ Result<std::vector<fs::path>> writeSuggestion(const SuggestOutcome& outcome, con
     if (!outcome.regionsText.empty()) {
         TRY(writeTextFile(files.regions, outcome.regionsText));
         written.push_back(files.regions);
+    } else {
+        TRY(removeEarlierRegions(files.regions));
     }
     TRY(checkReadBack(files, request, outcome));
     TRY(writePicture(page, files.page));

@@ -20,8 +20,8 @@ SuggestFiles suggestFilesIn(const std::filesystem::path& folder, const std::stri
 SuggestPage suggestPageOf(const SuggestOutcome& outcome, const SuggestRequest& request);
 
 // Writes each file atomically, the report last, so that whoever finds it finds the others. Makes the folder. Without
-// suggested regions, no regions file is written. Reads the preset and the
-// regions again, which must be what was measured. Returns the files that were written.
+// suggested regions, no regions file is written, and that of an earlier suggestion is removed; one without the names of
+// suggested regions stays, because it may be the user's own. Reads the preset and the regions again, which must be what was measured. Returns the files that were written.
 planet::Result<std::vector<std::filesystem::path>> writeSuggestion(const SuggestOutcome& outcome,
                                                                    const SuggestRequest& request,
                                                                    const std::filesystem::path& folder,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -43,6 +44,13 @@ std::string newRegionName(std::string_view plan, std::span<const planet::Region>
          ++number)
         name = fmt::format("{} {}", first, number);
     return name;
+}
+
+bool isSuggestedName(std::string_view name) {
+    return std::ranges::any_of(std::array{placesPlan, heightsPlan}, [&](std::string_view plan) {
+        const std::string first = newRegionName(plan, {});
+        return name == first || name.starts_with(first + ' ');
+    });
 }
 
 std::vector<SuggestPlan> plansOver(std::span<const std::vector<SuggestGround>> frames, double radiusM,

@@ -21,6 +21,8 @@ planet::HeightBand bandOver(std::span<const SuggestGround> ground);
 
 // Returns a name that no region has yet: "suggested places", or "suggested places 2".
 std::string newRegionName(std::string_view plan, std::span<const planet::Region> taken);
+// Returns whether a name is one that newRegionName gives.
+bool isSuggestedName(std::string_view name);
 
 // Returns the plans for the ground of the frames with the largest costs, one span of ground each. Plans that cover no
 // ground are left out. taken: the planet's regions. Pure.

@@ -64,7 +64,7 @@ TEST_F(SuggestCommand, WritesAPresetAndAReportThatAnotherCommandConfirms) {
         << "[[region]]\nname = \"peaks\"\ntau_factor = 2\nheights_m = [3000, 9000]\n";
     const Ran again = suggest("--budget '15 k triangles' --flight down.toml --vary tau --no-pictures -o out");
     EXPECT_EQ(again.exitCode, 0) << again.errors;
-    EXPECT_THAT(again.errors, HasSubstr("suggested.regions.toml: is of an earlier suggestion"));
+    EXPECT_THAT(again.errors, HasSubstr("suggested.regions.toml: is not of this suggestion"));
 }
 
 TEST_F(SuggestCommand, ABudgetThatCannotBeMetExitsWithOne) {

@@ -112,6 +112,27 @@ TEST_F(SuggestPlanet, meetsABudgetThatTheSettingsExceedAndWritesWhatItMeasured) 
     EXPECT_THAT(tests::contentOf(files.report), HasSubstr("worldy shot "));
 }
 
+TEST_F(SuggestPlanet, regionsOfAnEarlierSuggestionAreRemovedAndThoseOfTheUserAreKept) {
+    const SuggestRequest request = requestOf("10 M triangles");
+    const SuggestOutcome outcome = suggest(request);
+    ASSERT_EQ(outcome.regionsText, "");
+    const std::filesystem::path folder = folder_->path() / "again";
+    const SuggestFiles files = suggestFilesIn(folder, "good");
+    std::filesystem::create_directory(folder);
+    const auto write = [&](const std::string& name) {
+        std::ofstream(files.regions) << "[[region]]\nname = \"" << name << "\"\ntau_factor = 2\n";
+        ASSERT_TRUE(writeSuggestion(outcome, request, folder, "good"));
+    };
+    for (const char* const suggested : {"suggested places", "suggested heights 2"}) {
+        write(suggested);
+        EXPECT_FALSE(std::filesystem::exists(files.regions)) << suggested;
+    }
+    for (const char* const own : {"suggested", "suggested placeship", "peaks"}) {
+        write(own);
+        EXPECT_TRUE(std::filesystem::exists(files.regions)) << own;
+    }
+}
+
 TEST_F(SuggestPlanet, settingsThatMeetTheirBudgetAreReportedAsSuch) {
     const SuggestOutcome outcome = suggest(requestOf("10 M triangles"));
     EXPECT_TRUE(outcome.isMet);
