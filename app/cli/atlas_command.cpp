@@ -185,14 +185,9 @@ void printVerdicts(const AtlasDiff& diff, const planet::Atlas& now, std::size_t 
 }
 
 // Says which settings the two surveys do not share.
-Json differentSettings(const planet::Atlas& before, const ViewSettings& now, bool prints) {
+Json differentSettings(const planet::Atlas& before, const planet::Atlas& now, bool prints) {
     Json list = Json::array();
-    const Result<ViewSettings> old = settingsOf(before.survey, "the earlier atlas");
-    if (!old) return list;
-    Settings a, b;
-    a.view = *old;
-    b.view = now;
-    for (const SettingDifference& one : differences(a, b)) {
+    for (const SettingDifference& one : differencesOf(before.survey, now.survey)) {
         if (prints) fmt::print("{}: {} before, {} now\n", one.setting, one.here, one.there);
         list.push_back({{"setting", one.setting}, {"before", one.here}, {"now", one.there}});
     }
@@ -233,7 +228,7 @@ Result<bool> report(const AtlasOptions& options, const AtlasRequest& request, co
     if (request.revisited) {
         TRY_ASSIGN(const AtlasDiff diff, diffOf(*request.revisited, atlas, options.limits));
         if (!options.json) fmt::print("\ncompared with {}\n", options.diff.string());
-        Json settings = differentSettings(*request.revisited, request.view, !options.json);
+        Json settings = differentSettings(*request.revisited, atlas, !options.json);
         if (!options.json) {
             for (const planet::AtlasMeasureDiff& one : diff.measures) printMoves(one, atlas, worst);
             printTrees(diff, worst);

@@ -310,14 +310,7 @@ Result<ui::AtlasComparison> comparisonOf(const planet::Atlas& earlier,
     comparison.diff = *std::move(diff);
     comparison.changes = planet::changesOf(earlier.viewpoints, now.viewpoints);
     comparison.cells = planet::changedCellsOf(now.survey.grid, comparison.changes);
-    const Result<ViewSettings> before = settingsOf(earlier.survey, earlierFile.string());
-    const Result<ViewSettings> after = settingsOf(now.survey, nowFile.string());
-    if (before && after) {
-        Settings a, b;
-        a.view = *before;
-        b.view = *after;
-        comparison.settings = differences(a, b);
-    }
+    comparison.settings = differencesOf(earlier.survey, now.survey);
     return comparison;
 }
 

@@ -115,6 +115,28 @@ std::string differenceOf(const AtlasSurvey& unfinished, const AtlasSurvey& now) 
     return {};
 }
 
+// Returns the names of the regions of a survey, for users: "peaks, coast", or "none".
+std::string regionNames(const AtlasSurvey& survey) {
+    constexpr std::size_t listed = 4;
+    if (survey.regions.empty()) return "none";
+    const auto regions = regionsFromText(survey.regions, "regions");
+    if (!regions) return "unreadable";
+    std::vector<std::string> names;
+    for (const planet::Region& region : *regions) {
+        if (names.size() == listed) {
+            names.push_back(fmt::format("{} more", regions->size() - listed));
+            break;
+        }
+        names.push_back(region.name);
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// Tells regions of the same names apart.
+std::uint32_t shortHashOf(const std::string& text) {
+    return static_cast<std::uint32_t>(XXH3_64bits(text.data(), text.size()));
+}
+
 struct OpenedAtlas {
     std::unique_ptr<planet::AtlasWriter> writer;  // none if the atlas is kept in memory alone
     planet::Atlas atlas;
@@ -213,6 +235,22 @@ Result<ViewSettings> settingsOf(const AtlasSurvey& survey, const std::string& na
     ViewSettings view = applied(part, {});
     view.regions = regions;
     return view;
+}
+
+std::vector<SettingDifference> differencesOf(const AtlasSurvey& before, const AtlasSurvey& now) {
+    Settings here, there;
+    here.view = settingsOf(before, "before", RegionSettings{}).value_or(ViewSettings{});
+    there.view = settingsOf(now, "now", RegionSettings{}).value_or(ViewSettings{});
+    std::vector<SettingDifference> found = differences(here, there);
+    std::erase_if(found, [](const SettingDifference& one) { return one.setting.starts_with("overlay."); });
+    if (before.regions == now.regions) return found;
+    SettingDifference regions{"regions", regionNames(before), regionNames(now), "Regions"};
+    if (regions.here == regions.there) {
+        regions.here += fmt::format(" ({:08x})", shortHashOf(before.regions));
+        regions.there += fmt::format(" ({:08x})", shortHashOf(now.regions));
+    }
+    found.push_back(std::move(regions));
+    return found;
 }
 
 Result<AtlasRequest> requestToResume(const planet::Atlas& unfinished, const std::filesystem::path& output,

@@ -7,8 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/settings/camera_text.h"
+#include "app/settings/setting_difference.h"
 #include "app/settings/view_settings.h"
 #include "planet/measure/atlas.h"
 #include "planet/measure/atlas_run.h"
@@ -53,6 +55,11 @@ planet::Result<ViewSettings> settingsOf(const planet::AtlasSurvey& survey, const
 // Returns them with other regions: those of now, because they belong to the planet and not to the view.
 planet::Result<ViewSettings> settingsOf(const planet::AtlasSurvey& survey, const std::string& name,
                                         const RegionSettings& regions);
+
+// Returns what differs between the settings of two surveys and can change what is measured: "regions" stands for their
+// regions, by name, and overlays are left out. An unreadable text counts as that of the defaults.
+std::vector<SettingDifference> differencesOf(const planet::AtlasSurvey& before,
+                                             const planet::AtlasSurvey& now);
 
 // Returns the request that continues an unfinished survey: with its settings, picture, viewpoints and measures. regions:
 // those of now; surveyAtlas refuses others than those of the survey. The Error names what the file's text has wrong, or

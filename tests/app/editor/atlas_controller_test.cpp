@@ -79,6 +79,31 @@ TEST(AtlasComparisons, APlantedChangeIsAtItsViewpointAndInItsCellWithTheSettings
     EXPECT_EQ(comparison->settings[0].there, "3");
 }
 
+TEST(AtlasComparisons, RegionsThatDifferAreToldAndOverlaysAreNot) {
+    const planet::Atlas earlier = twelveViewpoints();
+    planet::Atlas now = earlier;
+    ViewSettings settings;
+    settings.overlay.colourBy = ColourBy::Level;
+    now.survey.settings = viewSettingsText(settings);
+    EXPECT_TRUE(comparisonOf(earlier, "a.atlas", now, "b.atlas")->settings.empty());
+
+    now.survey.regions = "[[region]]\nname = \"peaks\"\ntau_factor = 2\nheights_m = [3000, 9000]\n";
+    auto comparison = comparisonOf(earlier, "a.atlas", now, "b.atlas");
+    ASSERT_TRUE(comparison);
+    ASSERT_EQ(comparison->settings.size(), 1u);
+    EXPECT_EQ(comparison->settings[0].setting, "regions");
+    EXPECT_EQ(comparison->settings[0].here, "none");
+    EXPECT_EQ(comparison->settings[0].there, "peaks");
+
+    planet::Atlas other = now;
+    other.survey.regions = "[[region]]\nname = \"peaks\"\ntau_factor = 3\nheights_m = [3000, 9000]\n";
+    comparison = comparisonOf(now, "a.atlas", other, "b.atlas");
+    ASSERT_EQ(comparison->settings.size(), 1u);
+    EXPECT_THAT(comparison->settings[0].here, HasSubstr("peaks ("));
+    EXPECT_NE(comparison->settings[0].here, comparison->settings[0].there);
+    EXPECT_TRUE(comparisonOf(now, "a.atlas", now, "b.atlas")->settings.empty());
+}
+
 TEST(AtlasComparisons, SurveysThatDoNotBelongTogetherAreRefusedWithWhatIsWrong) {
     const planet::Atlas now = twelveViewpoints();
     planet::Atlas other = now;
