@@ -171,11 +171,14 @@ std::string scopeText(const SuggestOutcome& outcome) {
     for (std::size_t i = 0; i < outcome.legs.size(); ++i)
         parts.push_back(fmt::format("{} ({} frames)", outcome.legs[i], outcome.frames[i]));
     return fmt::format(
-        "Measured were {}. A budget is met if 99.9 % of the frames of each flight and all viewpoints are "
+        "Measured were {}, in pictures of {}x{} pixels with a field of view of {:.4g}\u00b0{}. Triangles and "
+        "errors depend on both. A budget is met if 99.9 % of the frames of each flight and all viewpoints "
+        "are "
         "within it; the worst places can be among the others. The figures are those of the written preset "
         "and "
         "regions, read back and measured again.",
-        fmt::join(parts, ", "));
+        fmt::join(parts, ", "), outcome.size.widthPx, outcome.size.heightPx, outcome.before.camera.fovDeg,
+        outcome.hasRecordings ? ", except recordings, which keep their own" : "");
 }
 
 std::string effortText(const SuggestOutcome& outcome) {

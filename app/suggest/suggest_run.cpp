@@ -450,6 +450,8 @@ Result<SuggestOutcome> runSuggest(const SuggestRequest& request, const SuggestWa
     // 2. Find what a frame takes here.
     SuggestOutcome outcome;
     outcome.budget = request.budget;
+    outcome.size = request.size;
+    outcome.hasRecordings = !request.recordings.empty();
     std::vector<SuggestBake> bakes = request.bakes;
     bakes.insert(bakes.begin(), {0, request.file});
     std::vector<MeteredFile> files;

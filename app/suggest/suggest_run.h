@@ -79,7 +79,9 @@ struct SuggestOutcome {
     std::vector<TimedFrame>
         drawnFrames;  // drawn here with the suggested settings, if frame times have a budget
     std::vector<SuggestPlace> places;
-    std::string noPictures;  // why there are none
+    std::string noPictures;      // why there are none
+    PictureSize size;            // of the views, with the field of view of the settings before
+    bool hasRecordings = false;  // whose views have sizes of their own
     double radiusM = 0;
     double elapsedS = 0;
 };

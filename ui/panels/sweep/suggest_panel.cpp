@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <glm/trigonometric.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -177,6 +178,8 @@ void suggestProgress(const SuggestView& suggest, Commands& commands) {
 void startControl(const EditorView& view, const SuggestPanelState& state,
                   const std::vector<std::filesystem::path>& all, Commands& commands) {
     StartSuggest start{.budget = budgetOf(state)};
+    start.size = {std::max(view.camera.renderView.widthPx, 16),
+                  std::max(view.camera.renderView.heightPx, 16)};
     for (const std::filesystem::path& file : all) {
         if (state.flights.contains(file.string())) start.flights.push_back(file);
     }
@@ -189,12 +192,16 @@ void startControl(const EditorView& view, const SuggestPanelState& state,
                "Searches settings that meet the budgets, in the background, from the current settings.")) {
         start.surveys = state.surveys;
         start.vary = state.vary;
-        start.size = {std::max(view.camera.renderView.widthPx, 16),
-                      std::max(view.camera.renderView.heightPx, 16)};
         commands.push_back(start);
     }
     endGrey();
     if (*problem != '\0') wrappedText(problem, palette().dim);
+    if (view.planet)
+        wrappedText(
+            fmt::format("Measured at the viewport's size and field of view: {}x{} pixels, {:.4g}\u00b0.",
+                        start.size.widthPx, start.size.heightPx,
+                        glm::degrees(view.camera.renderView.horizontalFovRad)),
+            palette().dim);
 }
 
 void suggestRequest(const EditorView& view, SuggestPanelState& state, Commands& commands) {
