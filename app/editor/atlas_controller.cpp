@@ -17,6 +17,8 @@
 #include "app/base/log.h"
 #include "app/base/new_file.h"
 #include "app/base/places.h"
+#include "app/base/text.h"
+#include "app/data/data_set.h"
 #include "app/editor/camera_controller.h"
 #include "app/editor/settings_controller.h"
 #include "app/measure/atlas_job.h"
@@ -135,22 +137,24 @@ Result<AtlasFiles> newAtlasFiles() {
     }
 }
 
-void beginSurvey(AtlasController& controller, AtlasRequest request, AtlasFiles files, Notices& notices) {
+void beginSurvey(AtlasController& controller, AtlasRequest request, AtlasFiles files, const DataSet& planet,
+                 Notices& notices) {
     request.output = files.output;
     request.threads = static_cast<std::size_t>(backgroundThreads());
     controller.problem.clear();
     controller.cancelled = false;
+    files.planet = sourceName(planet.source);
     notices.log->info("Surveying {}", request.file.string());
     controller.files = std::move(files);
     controller.job = std::make_unique<AtlasJob>(std::move(request));
 }
 
-void surveyNew(AtlasController& controller, AtlasRequest request, Notices& notices) {
+void surveyNew(AtlasController& controller, AtlasRequest request, const DataSet& planet, Notices& notices) {
     Result<AtlasFiles> files = newAtlasFiles();
     if (!files) return tellError(notices, {"The planet was not surveyed", files.error().message, ""});
     files->revisited = request.revisited;
     if (files->revisited) files->revisitedFile = controller.file;
-    beginSurvey(controller, std::move(request), *std::move(files), notices);
+    beginSurvey(controller, std::move(request), *std::move(files), planet, notices);
 }
 
 void startAtlas(AtlasController& controller, const ui::StartAtlas& start, const AtlasContext& context,
@@ -162,7 +166,7 @@ void startAtlas(AtlasController& controller, const ui::StartAtlas& start, const 
     setUsualDisk(request.view.paging.badDisk);
     request.grid.most = start.viewpoints;
     request.measuresError = start.measuresError;
-    surveyNew(controller, std::move(request), notices);
+    surveyNew(controller, std::move(request), context.open->data, notices);
 }
 
 void revisitAtlas(AtlasController& controller, const ui::RevisitAtlas& revisit, const AtlasContext& context,
@@ -183,7 +187,7 @@ void revisitAtlas(AtlasController& controller, const ui::RevisitAtlas& revisit, 
     }
     request.measuresError = old.measuresError;
     request.revisited = std::make_shared<const planet::Atlas>(*controller.atlas);
-    surveyNew(controller, std::move(request), notices);
+    surveyNew(controller, std::move(request), context.open->data, notices);
 }
 
 // Returns whether a survey may take the name of a file. A killed survey leaves its reservation, which is empty.
@@ -208,7 +212,7 @@ void resumeAtlas(AtlasController& controller, const AtlasContext& context, Notic
         requestToResume(*controller.atlas, files.output, context.open->data.chunkFile,
                         context.settings.settings.view.regions, files.revisited);
     if (!request) return tellError(notices, {"The survey was not continued", request.error().message, ""});
-    beginSurvey(controller, *std::move(request), std::move(files), notices);
+    beginSurvey(controller, *std::move(request), std::move(files), context.open->data, notices);
 }
 
 void lookFrom(const AtlasController& controller, std::size_t viewpoint, const AtlasContext& context,
@@ -333,6 +337,7 @@ ui::AtlasView atlasViewOf(const AtlasController& controller, const OpenPlanet* o
         view.running = true;
         view.cancelling = controller.job->cancelling();
         view.progress = controller.job->progress();
+        view.surveyed = controller.files.planet;
     }
     if (!controller.atlas) return view;
     view.atlas = &*controller.atlas;
@@ -349,7 +354,7 @@ ui::AtlasView atlasViewOf(const AtlasController& controller, const OpenPlanet* o
     if (survey.radiusM != open->scene.planet->tree().shape.radiusM)
         view.otherBake = fmt::format("It is of a planet with a radius of {:g} m.", survey.radiusM);
     else if (survey.bake != shown)
-        view.otherBake = fmt::format("It is of {}; {} is open.", survey.bake, shown);
+        view.otherBake = fmt::format("It is of {}; {} is open.", survey.bake, sourceName(open->data.source));
     return view;
 }
 

@@ -31,6 +31,7 @@ struct AtlasFiles {
     std::shared_ptr<void> reservation{};
     std::shared_ptr<const planet::Atlas> revisited{};  // whose viewpoints it surveys; null for others
     std::filesystem::path revisitedFile{};
+    std::string planet{};  // that is surveyed, as the window names it
 };
 
 // A survey keeps using the chunk file that it started with: the planet may be closed or rebaked while it runs.

@@ -15,6 +15,7 @@
 #include "app/base/log.h"
 #include "app/base/new_file.h"
 #include "app/base/places.h"
+#include "app/base/text.h"
 #include "app/data/data_set.h"
 #include "app/editor/settings_controller.h"
 #include "app/session/notices.h"
@@ -50,6 +51,7 @@ void startSuggest(SuggestController& controller, const ui::StartSuggest& start, 
     request.view = context.settings.settings.view;
     request.size = start.size;
     controller.request = request;
+    controller.planet = sourceName(context.open->data.source);
     controller.trials.clear();
     controller.outcome.reset();
     controller.problem.clear();
@@ -140,7 +142,8 @@ ViewSettings settingsToApply(const ViewSettings& now, const SuggestOutcome& outc
 ui::SuggestView suggestViewOf(const SuggestController& controller, const OpenPlanet* open) {
     ui::SuggestView view;
     view.outcome = controller.outcome ? &*controller.outcome : nullptr;
-    view.planet = controller.request.file.filename().string();
+    view.planet = controller.planet;
+    if (open) view.openPlanet = sourceName(open->data.source);
     view.fitsPlanet = open && open->data.chunkFile == controller.request.file;
     view.budget = controller.request.budget;
     view.trials = controller.trials;

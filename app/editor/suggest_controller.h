@@ -23,6 +23,7 @@ namespace worldy {
 struct SuggestController {
     std::unique_ptr<SuggestJob> job{};  // at most one
     SuggestRequest request{};           // of the job, or of the last one
+    std::string planet{};               // of the request, as the window names it
     std::vector<SuggestTrial> trials{};
     std::optional<SuggestOutcome> outcome{};
     std::string problem{};

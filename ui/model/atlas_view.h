@@ -33,6 +33,7 @@ struct AtlasView {
     int altitude = 0;                            // index of the chosen one
     std::string otherBake{};  // why it does not fit the shown planet; empty: it does, as far as is known
     bool running = false;
+    std::string surveyed{};  // the planet of the running survey
     bool cancelling = false;
     std::optional<planet::AtlasProgress> progress{};  // none while the tree is read
     std::string problem{};                            // why the last survey or file failed

@@ -12,7 +12,8 @@ namespace worldy::ui {
 
 struct SuggestView {
     const SuggestOutcome* outcome = nullptr;  // null before the first suggestion, and while one is searched
-    std::string planet{};                     // name of the file that it is for
+    std::string planet{};                     // that it is for
+    std::string openPlanet{};                 // empty if none is open
     bool fitsPlanet = false;                  // that file is open
     SuggestBudget budget{};                   // of the trials
     std::span<const SuggestTrial> trials{};   // so far, or of the last search

@@ -38,6 +38,16 @@ TEST(SuggestController, applyingChangesWhatTheSuggestionChoseAndNothingElse) {
     EXPECT_EQ(settingsToApply(now, outcome).regions.applied(), regions);
 }
 
+TEST(SuggestController, aResultNamesItsPlanetAsTheWindowDid) {
+    SuggestController controller;
+    controller.planet = "earth.toml";
+    controller.request.file = "/cache/earth-f359fddae3db3d98.chk";
+    const ui::SuggestView view = suggestViewOf(controller, nullptr);
+    EXPECT_EQ(view.planet, "earth.toml");
+    EXPECT_EQ(view.openPlanet, "");
+    EXPECT_FALSE(view.fitsPlanet);
+}
+
 TEST(SuggestController, applyingKeepsRegionsThatAreSwitchedOff) {
     const planet::Region mine{.name = "mine", .tauFactor = 4}, offAlready{.name = "off", .on = false};
     const planet::Region suggested{.name = "suggested places", .tauFactor = 2};

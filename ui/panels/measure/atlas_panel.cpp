@@ -99,6 +99,7 @@ void atlasProgress(const AtlasView& atlas, Commands& commands) {
         atlas.progress ? fmt::format("{} of {} viewpoints", atlas.progress->done, atlas.progress->total)
                        : std::string("reading chunks");
     ImGui::ProgressBar(static_cast<float>(share), {-1, 0}, text.c_str());
+    if (!atlas.surveyed.empty()) wrappedText(fmt::format("Surveying {}.", atlas.surveyed), palette().dim);
 }
 
 void atlasSurveyButtons(const EditorView& view, const AtlasPanelState& state, Commands& commands) {

@@ -168,6 +168,7 @@ void suggestProgress(const SuggestView& suggest, Commands& commands) {
                                         static_cast<double>(std::max<std::size_t>(p.measured + p.ahead, 1))
                                   : p.share;
     usageBar(std::min(share, 1.0), suggestStageText(p.stage));
+    if (!suggest.planet.empty()) wrappedText(fmt::format("For {}.", suggest.planet), palette().dim);
     if (!searches) return;
     std::string text = fmt::format("{} measured, at most {} more: {}", p.measured, p.ahead,
                                    candidateText(p.candidate, tauSymbol()));
