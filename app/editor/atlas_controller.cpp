@@ -86,12 +86,11 @@ void openAtlas(AtlasController& controller, const std::filesystem::path& file, N
 
 void showComparison(AtlasController& controller, const planet::Atlas& earlier,
                     const std::filesystem::path& earlierFile) {
-    endComparison(controller);
     Result<ui::AtlasComparison> comparison =
         comparisonOf(earlier, earlierFile, *controller.atlas, controller.file);
     if (!comparison) {
         controller.comparisonProblem = comparison.error().message;
-        return drapeAgain(controller);
+        return;
     }
     controller.comparison = *std::move(comparison);
     controller.isChange = true;
@@ -104,7 +103,10 @@ void showComparison(AtlasController& controller, const planet::Atlas& earlier,
 void compareAtlas(AtlasController& controller, const std::filesystem::path& file, Notices& notices) {
     if (!controller.atlas) return;
     const Result<planet::Atlas> earlier = planet::loadAtlas(file);
-    if (!earlier) return tellCannotOpen(notices, file, earlier.error());
+    if (!earlier)
+        return tellError(
+            notices, {fmt::format("{} cannot be compared", file.filename().string()), earlier.error().message,
+                      "What is shown is kept. Choose an atlas (.atlas) of the same viewpoints."});
     showComparison(controller, *earlier, file);
 }
 
@@ -215,7 +217,7 @@ void resumeAtlas(AtlasController& controller, const AtlasContext& context, Notic
     beginSurvey(controller, *std::move(request), std::move(files), context.open->data, notices);
 }
 
-void lookFrom(const AtlasController& controller, std::size_t viewpoint, const AtlasContext& context,
+void lookFrom(AtlasController& controller, std::size_t viewpoint, const AtlasContext& context,
               Notices& notices) {
     if (!controller.atlas || viewpoint >= controller.atlas->viewpoints.size() || !context.open) return;
     if (!mayChange("Settings", context.replaying, notices.log)) return;
@@ -228,6 +230,8 @@ void lookFrom(const AtlasController& controller, std::size_t viewpoint, const At
     if (!(wanted == now)) replaceView(context.settings, std::move(wanted), "settings of the atlas");
     const planet::CameraPose pose = planet::poseOf(survey, controller.atlas->viewpoints[viewpoint]);
     glideCamera(context.camera, cameraFromPose(pose, survey.radiusM), context.cameraContext);
+    controller.altitude = controller.atlas->viewpoints[viewpoint].place.altitude;
+    drapeAgain(controller);
 }
 
 // Shows what a survey that ended early has left. Returns whether it has left viewpoints; a new one without any leaves no
@@ -256,6 +260,7 @@ void finishAtlas(AtlasController& controller, planet::Atlas atlas, const Log& lo
 
 void execute(AtlasController& controller, const ui::AtlasCommand& command, const AtlasContext& context,
              Notices& notices) {
+    controller.comparisonProblem.clear();  // it is of an earlier command
     std::visit(
         Overloaded{
             [&](const ui::OpenAtlas& open) { openAtlas(controller, open.file, notices); },

@@ -124,6 +124,13 @@ TEST(AtlasComparisons, SurveysThatDoNotBelongTogetherAreRefusedWithWhatIsWrong) 
     EXPECT_THAT(problemOf(other, now), HasSubstr("11 viewpoints cannot be compared with 12"));
 }
 
+planet::Atlas withTwoAltitudes() {
+    planet::Atlas atlas = twelveViewpoints();
+    atlas.survey.grid.altitudesM = {200, 5000};
+    atlas.viewpoints[7].place.altitude = 1;
+    return atlas;
+}
+
 class AtlasSurveysInTheWindow : public test::SessionTest {
 protected:
     AtlasSurveysInTheWindow() {
@@ -218,6 +225,55 @@ TEST_F(AtlasSurveysInTheWindow, AFileThatHoldsSomethingIsNeverReplacedByAContinu
     EXPECT_FALSE(controller.job);
     EXPECT_THAT(notices_.message.text, HasSubstr("exists; expected no file of this name"));
     EXPECT_EQ(tests::contentOf(finished), "mine");
+}
+
+TEST_F(AtlasSurveysInTheWindow, PlanetsAreNamedAsInTheTitleOfTheWindow) {
+    session_.open->data.source = "/worlds/earth.toml";
+    AtlasController controller;
+    send(controller, ui::StartAtlas{.viewpoints = 72});
+    EXPECT_EQ(atlasViewOf(controller, &*session_.open).surveyed, "earth.toml");
+    finish(controller);
+    EXPECT_EQ(atlasViewOf(controller, &*session_.open).otherBake, "");
+    controller.atlas->survey.bake = "moon.chk";
+    EXPECT_EQ(atlasViewOf(controller, &*session_.open).otherBake, "It is of moon.chk; earth.toml is open.");
+}
+
+TEST_F(AtlasSurveysInTheWindow, LookingFromAViewpointShowsItsAltitude) {
+    AtlasController controller;
+    controller.atlas = withTwoAltitudes();
+    controller.cells = planet::cellsOf(controller.atlas->survey.grid, controller.atlas->viewpoints);
+    send(controller, ui::LookFromAtlas{7});
+    EXPECT_EQ(controller.altitude, 1);
+    EXPECT_EQ(controller.drape.values.size(), 1u);
+    send(controller, ui::LookFromAtlas{3});
+    EXPECT_EQ(controller.altitude, 0);
+}
+
+TEST_F(AtlasSurveysInTheWindow, ARefusedComparisonKeepsTheOneOnScreenAndItsReasonEndsWithTheNextCommand) {
+    AtlasController controller;
+    send(controller, ui::StartAtlas{.viewpoints = 72});
+    finish(controller);
+    ASSERT_TRUE(controller.atlas && controller.atlas->isFinished);
+    const std::filesystem::path first = controller.file;
+    send(controller, ui::CompareAtlas{first});
+    ASSERT_TRUE(controller.comparison);
+    EXPECT_EQ(controller.comparisonProblem, "");
+    send(controller, ui::StartAtlas{.viewpoints = 150});
+    finish(controller);
+    const std::filesystem::path second = controller.file;
+    send(controller, ui::CompareAtlas{second});
+    ASSERT_TRUE(controller.comparison);
+
+    send(controller, ui::CompareAtlas{first});
+    EXPECT_THAT(controller.comparisonProblem, HasSubstr("viewpoints cannot be compared"));
+    ASSERT_TRUE(controller.comparison);
+    EXPECT_EQ(controller.comparison->earlier, second.filename().string());
+    EXPECT_TRUE(controller.isChange);
+    send(controller, ui::CompareAtlas{folder_ / "planet.chk"});
+    EXPECT_EQ(controller.comparisonProblem, "");
+    EXPECT_EQ(notices_.message.title, "planet.chk cannot be compared");
+    EXPECT_THAT(notices_.message.advice, HasSubstr(".atlas"));
+    EXPECT_TRUE(controller.comparison);
 }
 
 }  // namespace
