@@ -143,8 +143,11 @@ void drawPoints(PageCanvas& canvas, const SuggestPage& page, int plotHeight) {
     for (const SuggestPage::Point& point : page.points) {
         if (!point.isBest && !point.isBefore) continue;
         canvas.disc(px(point.errorPx), py(point.costShare), 9, point.isBest ? pageGreen : pageInk);
-        canvas.text(px(point.errorPx) + 14, py(point.costShare) - 10, point.isBest ? "suggested" : "before",
-                    smallPx, point.isBest ? pageGreen : pageInk);
+        const std::string label = point.isBest ? "suggested" : "before";
+        const bool isRoom = px(point.errorPx) + 14 + canvas.widthOf(label, smallPx) <= right;
+        canvas.text(px(point.errorPx) + (isRoom ? 14 : -14), py(point.costShare) - 10, label, smallPx,
+                    point.isBest ? pageGreen : pageInk,
+                    isRoom ? draw::TextAlignX::Left : draw::TextAlignX::Right);
     }
     canvas.text(left, top - 24,
                 "Largest share of a budget of costs (red: limits; blue: all frames; grey: samples)", smallPx,

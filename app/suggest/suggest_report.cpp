@@ -37,7 +37,9 @@ std::string verdictOf(const SuggestOutcome& outcome, SuggestLimit limit) {
     const bool isPredicted = limit == SuggestLimit::FrameMs && (!outcome.cost || !outcome.cost->isMeasured);
     const double over = value / *budget - 1;
     if (over <= 0) return isPredicted ? "predicted to be met" : "met";
-    return fmt::format("{}exceeded by {:.3g} %", isPredicted ? "predicted to be " : "", 100 * over);
+    const char* const predicted = isPredicted ? "predicted to be " : "";
+    if (over < 9.995) return fmt::format("{}exceeded by {:.3g} %", predicted, 100 * over);
+    return fmt::format("{}exceeded {}-fold", predicted, countText(std::round(over + 1)));
 }
 
 std::string regionsNote(const SuggestOutcome& outcome) {
@@ -157,12 +159,17 @@ std::string verdictText(const SuggestOutcome& outcome) {
     }
     const auto binds = bindingLimit(outcome.budget, outcome.measured.figures.values);
     std::string text = fmt::format("The budget of {} is not met.", budgetText(outcome.budget));
+    const bool isKept = keepsSettings(outcome);
     if (binds && !std::isnan(valueOfLimit(outcome.measured.figures, *binds))) {
         const double value = valueOfLimit(outcome.measured.figures, *binds);
-        text +=
-            fmt::format(" The budget of {} binds: the closest settings have {} of {}.", textOf(*binds).noun,
-                        limitText(*binds, value), limitText(*binds, *outcome.budget[*binds]));
+        text += fmt::format(" The budget of {} binds: the {} have {} of {}.", textOf(*binds).noun,
+                            isKept ? "settings of now" : "closest settings", limitText(*binds, value),
+                            limitText(*binds, *outcome.budget[*binds]));
     }
+    if (outcome.found.isUnchanged && !outcome.drawnFrames.empty())
+        text += " By the fitted cost they meet it, so nothing was searched, but a drawn frame takes longer.";
+    else if (isKept && !outcome.found.isUnchanged)
+        text += " Nothing that was found is better, so no setting changes.";
     return text + unsettledText(outcome) + needsText(outcome);
 }
 
@@ -193,15 +200,21 @@ std::string frameTimeText(const SuggestOutcome& outcome) {
         return fmt::format("Frame times are predicted by the cost that was given, {}, and not measured.",
                            frameCostText(cost));
     std::string text = fmt::format(
-        "Frame times are those of this machine, {}: {}, fitted to {} frames that were drawn here, the "
-        "slowest of which "
-        "decides; the times before are by that fit.",
+        "Frame times are those of this machine, {}: {}, fitted to {} frames that were drawn here and raised "
+        "above the slowest.",
         cost.machine, frameCostText(cost), cost.frames);
     if (outcome.drawnFrames.empty()) return text;
-    double worst = 0;
-    for (const TimedFrame& frame : outcome.drawnFrames) worst = std::max(worst, frame.ms);
-    return text + fmt::format(" With the suggested settings, {} frames were drawn; the slowest took {}.",
-                              outcome.drawnFrames.size(), limitText(SuggestLimit::FrameMs, worst));
+    const auto slowest = [](const std::vector<TimedFrame>& frames) {
+        double worst = 0;
+        for (const TimedFrame& frame : frames) worst = std::max(worst, frame.ms);
+        return limitText(SuggestLimit::FrameMs, worst);
+    };
+    return text + fmt::format(
+                      " Then {} frames were drawn with the settings before, the slowest in {}, and {} with "
+                      "the suggested ones, the slowest in {}. A slower drawn frame counts instead of the "
+                      "fitted time, before as well as suggested.",
+                      outcome.drawnBefore.size(), slowest(outcome.drawnBefore), outcome.drawnFrames.size(),
+                      slowest(outcome.drawnFrames));
 }
 
 std::string chunkSizeText(const SuggestOutcome& outcome) {
@@ -327,6 +340,11 @@ Json suggestJson(const SuggestOutcome& outcome, const SuggestRequest& request) {
                               {"measured", outcome.cost->isMeasured},
                               {"machine", outcome.cost->machine}};
     }
+    json["drawn_frames"] = {{"before", outcome.drawnBefore.size()},
+                            {"suggested", outcome.drawnFrames.size()}};
+    json["picture"] = {{"width_px", outcome.size.widthPx},
+                       {"height_px", outcome.size.heightPx},
+                       {"fov_deg", outcome.before.camera.fovDeg}};
     json["samples"] = outcome.found.samples;
     json["wholes"] = outcome.found.wholes;
     json["trials"] = Json::array();

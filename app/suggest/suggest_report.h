@@ -18,7 +18,8 @@ struct SuggestRow {
     std::optional<double> budget;
     double before = 0;
     double after = 0;
-    std::string verdict;  // "met", "exceeded by 12 %", "predicted to be met", "not measured", or "no budget"
+    std::string
+        verdict;  // "met", "exceeded by 12 %", "exceeded 11.5 k-fold", "predicted to be met", "not measured", or "no budget"
 };
 std::vector<SuggestRow> rowsOf(const SuggestOutcome& outcome);
 

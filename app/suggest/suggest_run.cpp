@@ -369,11 +369,69 @@ std::vector<SuggestPlace> placesOf(const SuggestRequest& request, const std::vec
     return places;
 }
 
-// Draws the places, and times frames if those have a budget that was measured here. Without OpenGL, both are left out.
-Result<void> draw(const SuggestRequest& request, const std::vector<SuggestLeg>& legs, SuggestClock& clock,
-                  SuggestOutcome& outcome) {
-    const bool times = request.budget[SuggestLimit::FrameMs] && outcome.cost && outcome.cost->isMeasured;
-    if (!request.drawsPictures && !times) {
+// Draws frames with settings: views of all legs, and those that a measurement says to take longest. Without OpenGL, there
+// are none.
+Result<std::vector<TimedFrame>> drawnFramesOf(const SuggestRequest& request, const fs::path& file,
+                                              const ViewSettings& measuredSettings,
+                                              const SuggestMeasured& measured,
+                                              const std::vector<SuggestLeg>& legs, SuggestClock& clock) {
+    std::vector<TimedFrame> frames;
+    const ViewSettings settings = drawnSettings(measuredSettings);
+    Result<Offscreen> offscreen = openDrawn(request, file, settings);
+    if (!offscreen) return frames;
+    std::vector<planet::View> views = spreadViews(legs, 4);
+    for (const SuggestWorst& worst : measured.worst[frameMsIndex]) views.push_back(worst.view);
+    const std::function<bool()> goOn = [&] {
+        return clock.goOn(static_cast<double>(frames.size()) / static_cast<double>(views.size()));
+    };
+    for (const planet::View& view : views) {
+        TRY_ASSIGN(const TimedFrame frame, timeFrame(*offscreen, view, settings, goOn));
+        frames.push_back(frame);
+    }
+    return frames;
+}
+
+void raiseFrameTime(SuggestMeasured& measured, const std::vector<TimedFrame>& frames) {
+    double& ms = measured.figures.values[frameMsIndex];
+    for (const TimedFrame& frame : frames) ms = std::max(ms, frame.ms);
+}
+
+// Times frames with the settings before and the suggested ones, if those have a budget that was measured here. Both or
+// neither, because a fitted time and a drawn one do not compare.
+Result<void> timeBoth(const SuggestRequest& request, const std::vector<SuggestLeg>& legs, SuggestClock& clock,
+                      SuggestOutcome& outcome) {
+    if (!request.budget[SuggestLimit::FrameMs] || !outcome.cost || !outcome.cost->isMeasured) return {};
+    clock.enter(SuggestStage::Drawing);
+    TRY_ASSIGN(std::vector<TimedFrame> before,
+               drawnFramesOf(request, request.file, outcome.before, outcome.beforeMeasured, legs, clock));
+    std::vector<TimedFrame> after = before;
+    if (!keepsSettings(outcome)) {
+        TRY_ASSIGN(after,
+                   drawnFramesOf(request, outcome.file, outcome.settings, outcome.measured, legs, clock));
+    }
+    if (before.empty() || after.empty()) return {};
+    raiseFrameTime(outcome.beforeMeasured, before);
+    raiseFrameTime(outcome.measured, after);
+    outcome.drawnBefore = std::move(before);
+    outcome.drawnFrames = std::move(after);
+    return {};
+}
+
+// Suggests the settings of now, as they were measured.
+Result<void> keepNow(const SuggestRequest& request, const std::optional<FrameCost>& cost,
+                     SuggestOutcome& outcome) {
+    outcome.found.best = outcome.found.before;
+    outcome.measured = outcome.beforeMeasured;
+    outcome.drawnFrames = outcome.drawnBefore;
+    outcome.file = request.file;
+    outcome.cost = cost;
+    outcome.regionsText.clear();
+    return readBack(request, outcome.before, outcome);
+}
+
+// Draws the places. Without OpenGL, there are no pictures.
+Result<void> draw(const SuggestRequest& request, SuggestClock& clock, SuggestOutcome& outcome) {
+    if (!request.drawsPictures) {
         outcome.noPictures = "Pictures were not asked for.";
         return {};
     }
@@ -385,23 +443,10 @@ Result<void> draw(const SuggestRequest& request, const std::vector<SuggestLeg>& 
             fmt::format("There are no pictures, because OpenGL is not there: {}.", offscreen.error().message);
         return {};
     }
-    std::vector<planet::View> timed;
-    if (times) {
-        timed = spreadViews(legs, 4);
-        for (const SuggestWorst& worst : outcome.measured.worst[frameMsIndex]) timed.push_back(worst.view);
-    }
-    const auto total = static_cast<double>(timed.size() + outcome.places.size());
+    const auto total = static_cast<double>(outcome.places.size());
     std::size_t done = 0;
     const std::function<bool()> goOn = [&] { return clock.goOn(static_cast<double>(done) / total); };
-    for (const planet::View& view : timed) {
-        TRY_ASSIGN(const TimedFrame frame, timeFrame(*offscreen, view, settings, goOn));
-        outcome.drawnFrames.push_back(frame);
-        double& ms = outcome.measured.figures.values[frameMsIndex];
-        ms = std::max(ms, frame.ms);
-        ++done;
-    }
     for (SuggestPlace& place : outcome.places) {
-        if (!request.drawsPictures) break;
         if (!goOn()) return planet::cancelled();
         const SettledView at = settleAt(*offscreen, place.pose, settings, goOn);
         if (!at.settled && !goOn()) return planet::cancelled();
@@ -420,6 +465,16 @@ void nameSuggestFiles(SuggestRequest& request, const fs::path& preset, const fs:
     request.regionsFile = regions;
     if (!outcome.regionsText.empty()) outcome.settings.regions.file = regions.string();
     for (SuggestPlace& place : outcome.places) place.line = showLine(request, outcome, place.pose);
+}
+
+bool keepsSettings(const SuggestOutcome& outcome) {
+    return outcome.found.best.candidate == outcome.found.before.candidate;
+}
+
+bool isNoBetter(const SuggestOutcome& outcome) {
+    const SuggestFigures& found = outcome.measured.figures;
+    return mostUse(outcome.budget, found.values) > 1 &&
+           !isBetter(outcome.budget, found, outcome.beforeMeasured.figures);
 }
 
 std::string suggestPresetText(const ViewSettings& settings) {
@@ -497,10 +552,14 @@ Result<SuggestOutcome> runSuggest(const SuggestRequest& request, const SuggestWa
         outcome.frames.push_back(leg.frames.size());
     }
 
-    // 5. Look at the worst places.
-    outcome.places = placesOf(request, legs, outcome);
-    TRY(draw(request, legs, clock, outcome));
+    // 5. Compare frames that are drawn, and keep the settings of now unless what was found is better by them too.
+    TRY(timeBoth(request, legs, clock, outcome));
+    if (!keepsSettings(outcome) && isNoBetter(outcome)) TRY(keepNow(request, files.front().cost, outcome));
     outcome.isMet = mostUse(outcome.budget, outcome.measured.figures.values) <= 1;
+
+    // 6. Look at the worst places.
+    outcome.places = placesOf(request, legs, outcome);
+    TRY(draw(request, clock, outcome));
     outcome.elapsedS = elapsed.elapsedMs() / 1000;
     return outcome;
 }

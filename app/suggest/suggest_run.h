@@ -76,8 +76,10 @@ struct SuggestOutcome {
     std::vector<std::string> legs;
     std::vector<std::size_t> frames;  // by leg
     std::optional<FrameCost> cost;
-    std::vector<TimedFrame>
-        drawnFrames;  // drawn here with the suggested settings, if frame times have a budget
+    // Drawn here with the settings before and the suggested ones, if frame times have a budget that is measured here. The
+    // slowest counts in the frame times of both.
+    std::vector<TimedFrame> drawnBefore;
+    std::vector<TimedFrame> drawnFrames;
     std::vector<SuggestPlace> places;
     std::string noPictures;      // why there are none
     PictureSize size;            // of the views, with the field of view of the settings before
@@ -85,6 +87,11 @@ struct SuggestOutcome {
     double radiusM = 0;
     double elapsedS = 0;
 };
+
+// Returns whether the suggestion is the settings of now: they meet the budget, or nothing that was found is better. Pure.
+bool keepsSettings(const SuggestOutcome& outcome);
+// Returns whether the suggestion misses the budget by no less than the settings of now, as both were measured last. Pure.
+bool isNoBetter(const SuggestOutcome& outcome);
 
 enum class SuggestStage { Surveying, Timing, Searching, Verifying, Drawing };
 struct SuggestProgress {

@@ -76,6 +76,16 @@ TEST_F(SuggestCommand, ABudgetThatCannotBeMetExitsWithOne) {
     EXPECT_TRUE(exists("out/no.toml"));
 }
 
+TEST_F(SuggestCommand, FramesAreDrawnWithBothSettingsAndNothingWorseIsSuggested) {
+    const Ran ran = suggest("--budget '0.001 ms' --flight down.toml --vary tau --no-pictures -o out --json");
+    ASSERT_EQ(ran.exitCode, 1) << ran.errors;
+    const nlohmann::json report = nlohmann::json::parse(ran.output);
+    EXPECT_GT(report["drawn_frames"]["before"], 0);
+    EXPECT_GT(report["drawn_frames"]["suggested"], 0);
+    EXPECT_LE(report["suggested"]["frame_ms"], report["before"]["frame_ms"]);
+    EXPECT_EQ(report["picture"]["width_px"], 640);
+}
+
 TEST_F(SuggestCommand, AnInterruptionLeavesNoFile) {
     const Ran ran =
         runShell(folder, "'" WORLDY_BINARY

@@ -297,6 +297,38 @@ TEST_F(SuggestPlanet, theCommandInTheReportNamesTheSuggestedBakeAndQuotesNames) 
                 HasSubstr("--settings 'a b/best.toml' --regions 'a b/best.regions.toml' -o shot.png` draws"));
 }
 
+// The budget is 16 ms.
+SuggestOutcome timedOutcome(double beforeMs, double afterMs) {
+    SuggestOutcome outcome;
+    outcome.budget[SuggestLimit::FrameMs] = 16;
+    outcome.found.best.candidate.tauPx = 20;
+    outcome.beforeMeasured.figures.values = {beforeMs, 1e5, 1e6, 6};
+    outcome.measured.figures.values = {afterMs, 5e4, 1e6, 80};
+    return outcome;
+}
+
+TEST(SuggestOutcomes, settingsThatMissTheBudgetByMoreThanThoseOfNowAreNoBetter) {
+    EXPECT_TRUE(isNoBetter(timedOutcome(45.4, 49.6)));
+    EXPECT_TRUE(isNoBetter(timedOutcome(45.4, 45.4)));
+    EXPECT_FALSE(isNoBetter(timedOutcome(45.4, 30)));
+    EXPECT_FALSE(isNoBetter(timedOutcome(45.4, 15)));
+}
+
+TEST(SuggestOutcomes, theReportSaysThatNothingIsBetter) {
+    SuggestOutcome outcome = timedOutcome(45.4, 45.4);
+    EXPECT_FALSE(keepsSettings(outcome));
+    EXPECT_THAT(verdictText(outcome), HasSubstr("the closest settings have 45.4 ms"));
+    outcome.found.best = outcome.found.before;
+    EXPECT_TRUE(keepsSettings(outcome));
+    EXPECT_THAT(verdictText(outcome), HasSubstr("the settings of now have 45.4 ms of 16 ms"));
+    EXPECT_THAT(verdictText(outcome), HasSubstr("Nothing that was found is better, so no setting changes."));
+}
+
+TEST(SuggestOutcomes, aLargeExcessIsAFactor) {
+    EXPECT_EQ(rowsOf(timedOutcome(45, 24))[0].verdict, "predicted to be exceeded by 50 %");
+    EXPECT_EQ(rowsOf(timedOutcome(45, 184'000))[0].verdict, "predicted to be exceeded 11.5 k-fold");
+}
+
 TEST_F(SuggestPlanet, aFlightWithoutANameIsCalledAsItsFile) {
     SuggestRequest request = requestOf("10 M triangles");
     const std::filesystem::path unnamed = folder_->path() / "low_pass.toml";

@@ -403,10 +403,16 @@ void suggestResult(const EditorView& view, Commands& commands) {
                                           : "The suggested settings will be here.");
     const SuggestOutcome& outcome = *suggest.outcome;
     const bool isLocked = view.recording.replay.has_value();
-    beginGrey(isLocked || !suggest.fitsPlanet || outcome.found.isUnchanged,
+    if (!suggest.fitsPlanet)
+        wrappedText(suggest.openPlanet.empty()
+                        ? fmt::format("It is for {}, which is not open.", suggest.planet)
+                        : fmt::format("It is for {}; {} is open.", suggest.planet, suggest.openPlanet),
+                    palette().warning);
+    beginGrey(isLocked || !suggest.fitsPlanet || keepsSettings(outcome),
               isLocked              ? "Settings are locked during a replay; end it first."
               : !suggest.fitsPlanet ? "Another planet is open."
-                                    : "The settings of now already meet the budget.");
+              : outcome.isMet       ? "The settings of now already meet the budget."
+                                    : "Nothing that was found is better than the settings of now.");
     if (button("Apply",
                "Sets the tolerance, the metric, the morph range, the memory budget and the suggested "
                "regions, and turns the governor off. Undo reverts this."))
