@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+
 #include "app/settings/region_file.h"
 #include "app/settings/settings_text.h"
 
@@ -23,6 +28,12 @@ bool showsSource(const OverlaySettings& overlay) {
 std::string pathWord(const std::filesystem::path& path) {
     const std::string text = path.string();
     return shellWord(text.starts_with('-') ? "./" + text : text);
+}
+
+std::string absoluteWord(const std::filesystem::path& path) {
+    std::error_code status;
+    const std::filesystem::path whole = std::filesystem::absolute(path, status);
+    return pathWord(status ? path : whole.lexically_normal());
 }
 
 std::string shotLine(const std::filesystem::path& chunkFile, const planet::CameraPose& pose,

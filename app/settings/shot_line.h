@@ -17,6 +17,9 @@ std::string shellWord(std::string_view text);
 // Returns a path as such a word, which no program takes for an option.
 std::string pathWord(const std::filesystem::path& path);
 
+// Returns the same for the absolute path, which works in any folder.
+std::string absoluteWord(const std::filesystem::path& path);
+
 // Returns the `worldy shot` line for a view: the camera, and the settings that differ from the defaults.
 // Paths are written as given; absolute ones work in any folder. colourImage empty: the one beside the chunk
 // file. source: the planet's, for settings that show its layers; empty: none.

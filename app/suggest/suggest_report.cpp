@@ -77,12 +77,24 @@ std::string needsText(const SuggestOutcome& outcome) {
     return text;
 }
 
+// Returns the target of a Markdown link to a file beside the page.
+std::string linkTarget(std::string_view name) {
+    std::string target;
+    for (const char letter : name) {
+        const bool isPlain = std::string_view(" ()<>%#?\"").find(letter) == std::string_view::npos &&
+                             static_cast<unsigned char>(letter) > ' ';
+        target += isPlain ? std::string(1, letter)
+                          : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(letter)));
+    }
+    return target;
+}
+
 // Returns the command that draws the planet with the suggestion. A report that is given no files names those beside it.
 std::string drawLine(const SuggestOutcome& outcome, const SuggestRequest& request, const std::string& name) {
     const auto orBeside = [&](const std::filesystem::path& file, const char* ending) {
-        return pathWord(file.empty() ? std::filesystem::path(name + ending) : file);
+        return file.empty() ? pathWord(name + ending) : absoluteWord(file);
     };
-    std::string line = fmt::format("worldy shot {} --settings {}", pathWord(outcome.file),
+    std::string line = fmt::format("worldy shot {} --settings {}", absoluteWord(outcome.file),
                                    orBeside(request.presetFile, ".toml"));
     if (!outcome.regionsText.empty()) line += " --regions " + orBeside(request.regionsFile, ".regions.toml");
     return line + " -o shot.png";
@@ -291,7 +303,8 @@ std::string suggestMarkdown(const SuggestOutcome& outcome, const SuggestRequest&
         "the "
         "finest data, on the screen. Memory is that of the chunks, resident or needed, whichever is more.\n";
     text += "\n## Worst places\n\n";
-    if (hasPicture) text += fmt::format("![The page with pictures of the places]({}.png)\n\n", name);
+    if (hasPicture)
+        text += fmt::format("![The page with pictures of the places]({}.png)\n\n", linkTarget(name));
     if (!outcome.noPictures.empty()) text += outcome.noPictures + "\n\n";
     for (const SuggestPlace& place : outcome.places)
         text += fmt::format("- {}, on {}: `{}`\n", placeCaption(place), place.leg, place.line);

@@ -342,11 +342,11 @@ Result<void> readBack(const SuggestRequest& request, const ViewSettings& suggest
 std::string showLine(const SuggestRequest& request, const SuggestOutcome& outcome,
                      const planet::CameraPose& pose) {
     std::string line =
-        fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", pathWord(outcome.file),
+        fmt::format("worldy shot {} -o shot.png --camera={} --size {}x{}", absoluteWord(outcome.file),
                     cameraText(roundedPose(pose)), request.size.widthPx, request.size.heightPx);
-    if (!request.presetFile.empty()) line += " --settings " + pathWord(request.presetFile);
+    if (!request.presetFile.empty()) line += " --settings " + absoluteWord(request.presetFile);
     if (!outcome.settings.regions.file.empty())
-        line += " --regions " + pathWord(outcome.settings.regions.file);
+        line += " --regions " + absoluteWord(outcome.settings.regions.file);
     return line;
 }
 

@@ -283,18 +283,33 @@ TEST_F(SuggestPlanet, aFastDiskSettlesEveryView) {
 TEST_F(SuggestPlanet, theCommandInTheReportNamesTheSuggestedBakeAndQuotesNames) {
     SuggestRequest request = requestOf("10 M triangles");
     SuggestOutcome outcome = suggest(request);
-    outcome.file = "out/planet of 17.chk";
+    outcome.file = "/out/planet of 17.chk";
     EXPECT_THAT(
         suggestMarkdown(outcome, request, "my best", false),
-        HasSubstr("`worldy shot 'out/planet of 17.chk' --settings 'my best.toml' -o shot.png` draws"));
+        HasSubstr("`worldy shot '/out/planet of 17.chk' --settings 'my best.toml' -o shot.png` draws"));
     outcome.regionsText = "regions";
     EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
-                HasSubstr("`worldy shot 'out/planet of 17.chk' --settings best.toml --regions "
+                HasSubstr("`worldy shot '/out/planet of 17.chk' --settings best.toml --regions "
                           "best.regions.toml -o shot.png` draws"));
-    request.presetFile = "a b/best.toml";
-    request.regionsFile = "a b/best.regions.toml";
-    EXPECT_THAT(suggestMarkdown(outcome, request, "best", false),
-                HasSubstr("--settings 'a b/best.toml' --regions 'a b/best.regions.toml' -o shot.png` draws"));
+    request.presetFile = "/a b/best.toml";
+    request.regionsFile = "/a b/best.regions.toml";
+    EXPECT_THAT(
+        suggestMarkdown(outcome, request, "best", false),
+        HasSubstr("--settings '/a b/best.toml' --regions '/a b/best.regions.toml' -o shot.png` draws"));
+}
+
+TEST_F(SuggestPlanet, theReportStatesSizeAndFieldOfViewAndItsPathsWorkInAnyFolder) {
+    SuggestRequest request = requestOf("10 M triangles");
+    request.view.camera.fovDeg = 50;
+    SuggestOutcome outcome = suggest(request);
+    nameSuggestFiles(request, "a b/best.toml", "a b/best.regions.toml", outcome);
+    const std::string report = suggestMarkdown(outcome, request, "my best", true);
+    EXPECT_THAT(report, HasSubstr("640x400 pixels with a field of view of 50\u00b0"));
+    EXPECT_THAT(report, HasSubstr("](my%20best.png)"));
+    const std::string preset = (std::filesystem::current_path() / "a b/best.toml").string();
+    ASSERT_FALSE(outcome.places.empty());
+    for (const SuggestPlace& place : outcome.places) EXPECT_THAT(place.line, HasSubstr(preset));
+    EXPECT_THAT(report, Not(HasSubstr("--settings 'a b")));
 }
 
 // The budget is 16 ms.
