@@ -130,12 +130,34 @@ std::string limitText(SuggestLimit limit, double value) {
             return value >= 1e4 ? fmt::format("{:.4g} k triangles", value / 1e3)
                                 : fmt::format("{:.0f} triangles", value);
         case SuggestLimit::ResidentBytes:
-            return value >= 1 << 30 ? fmt::format("{:.4g} GiB", value / (1 << 30))
-                                    : fmt::format("{:.4g} MiB", value / (1 << 20));
+            if (value >= 1 << 30) return fmt::format("{:.4g} GiB", value / (1 << 30));
+            return value >= 1 << 20 ? fmt::format("{:.4g} MiB", value / (1 << 20))
+                                    : fmt::format("{:.4g} KiB", value / (1 << 10));
         case SuggestLimit::ErrorPx:
             return value < 1e5 ? fmt::format("{:.3g} px", value) : fmt::format("{:.2e} px", value);
     }
     return "";
+}
+
+Result<double> limitFromText(SuggestLimit limit, std::string_view text) {
+    constexpr std::string_view counted = " triangles";
+    constexpr std::array<std::string_view, suggestLimitCount> usual = {"ms", "triangles", "MiB", "px"};
+    const std::string_view part = trimmedPart(text);
+    const std::size_t digits = std::min(part.find_first_not_of("+-0123456789.eE"), part.size());
+    std::string_view unit = trimmedPart(part.substr(digits));
+    if (unit.empty()) unit = usual[static_cast<std::size_t>(limit)];
+    const std::optional<double> number = numberFromText(part.substr(0, digits));
+    std::string units;
+    for (const BudgetUnit& one : budgetUnits) {
+        if (one.limit != limit) continue;
+        std::string_view brief = one.name;
+        if (brief.ends_with(counted)) brief.remove_suffix(counted.size());
+        units += fmt::format("{}{}", units.empty() ? "" : ", ", one.name);
+        if (unit != one.name && unit != brief) continue;
+        if (number && *number > 0 && *number * one.factor <= mostBudget) return *number * one.factor;
+    }
+    return planet::badInput(fmt::format("\"{}\" is no {}; expected a number above 0 in {}, at most {:g}",
+                                        part, textOf(limit).noun, units, mostBudget));
 }
 
 std::string budgetText(const SuggestBudget& budget) {

@@ -56,6 +56,9 @@ planet::Result<SuggestBudget> suggestBudgetFromText(std::string_view text);
 std::string budgetText(const SuggestBudget& budget);
 // Returns "16.6 ms", "200 k triangles", "64 MiB" or "1.5 px".
 std::string limitText(SuggestLimit limit, double value);
+// Reads the value of one limit: as limitText writes it, without "triangles", as "200 k", or a number alone, which counts in
+// ms, triangles, MiB or px. The Error says what is wrong and what is right.
+planet::Result<double> limitFromText(SuggestLimit limit, std::string_view text);
 
 // Return the values as shares of their limits: the largest one, and the largest of costs or of the error alone. Limits
 // that are unset do not count. A value that is no number counts as infinite: it was not measured, so its limit is not met.

@@ -259,6 +259,26 @@ TEST(SuggestBudget, textIsReadInAnyOrderAndWrittenBack) {
     EXPECT_EQ(suggestBudgetOf("64 MB")[SuggestLimit::ResidentBytes], 64e6);
 }
 
+TEST(SuggestBudget, aFieldOfThePanelTakesTheUnitsOfItsLimitAndRefusesOthers) {
+    EXPECT_EQ(limitFromText(SuggestLimit::Triangles, "20k"), 20'000);
+    EXPECT_EQ(limitFromText(SuggestLimit::Triangles, " 1.5 M triangles "), 1.5e6);
+    EXPECT_EQ(limitFromText(SuggestLimit::Triangles, "20"), 20);
+    EXPECT_EQ(limitFromText(SuggestLimit::ResidentBytes, "64"), 64.0 * 1024 * 1024);
+    EXPECT_EQ(limitFromText(SuggestLimit::ResidentBytes, "1 KiB"), 1024);
+    EXPECT_EQ(limitFromText(SuggestLimit::FrameMs, "16.6"), 16.6);
+    EXPECT_EQ(limitFromText(SuggestLimit::ErrorPx, "1.5 px"), 1.5);
+    for (const char* const wrong : {"", "k", "20 q", "20 ms", "-5", "0", "1e300", "nan", "20 k k"})
+        EXPECT_FALSE(limitFromText(SuggestLimit::Triangles, wrong)) << wrong;
+    EXPECT_EQ(limitFromText(SuggestLimit::Triangles, "20 q").error().message,
+              "\"20 q\" is no triangles; expected a number above 0 in triangles, k triangles, M triangles, "
+              "at most 1e+15");
+}
+
+TEST(SuggestBudget, smallMemoryIsInKibibytes) {
+    EXPECT_EQ(limitText(SuggestLimit::ResidentBytes, 1024), "1 KiB");
+    EXPECT_EQ(limitText(SuggestLimit::ResidentBytes, 1 << 20), "1 MiB");
+}
+
 TEST(SuggestBudget, everyWrongPartIsNamed) {
     const auto problem = [](const std::string& text) {
         const auto budget = suggestBudgetFromText(text);

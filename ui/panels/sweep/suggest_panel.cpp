@@ -19,6 +19,7 @@
 #include "app/suggest/suggest_budget.h"
 #include "app/suggest/suggest_report.h"
 #include "app/suggest/suggest_search.h"
+#include "planet/base/result.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/front_chart.h"
 #include "ui/kit/item_map.h"
@@ -48,20 +49,41 @@ const SuggestView& suggestOf(const EditorView& view) {
 
 struct BudgetField {
     const char* label;
-    const char* unit;
     const char* explanation;
 };
 constexpr std::array<BudgetField, suggestLimitCount> budgetFields = {{
-    {"Frame time", "%.3g ms",
+    {"Frame time",
      "Time of a frame on this machine, selecting and drawing. It is measured by drawing in the background; "
      "the window draws meanwhile, which disturbs it. worldy suggest measures it undisturbed, or takes the "
      "cost of another machine."},
-    {"Triangles", "%.0f", "Drawn triangles of a frame, skirts included."},
-    {"Memory", "%.4g MiB",
+    {"Triangles", "Drawn triangles of a frame, skirts included. \"20 k\" and \"1.5 M\" are read too."},
+    {"Memory",
      "Memory of the chunks that are resident or that a frame needs. The budget of the paging follows it."},
-    {"Drawn error", "%.3g px",
+    {"Drawn error",
      "Bound of the distance between the drawn surface and the finest data on screen, morphs included."},
 }};
+
+// Edits a budget as text with its unit. A text that cannot be read stays, and the budget stays as it was.
+void budgetEdit(std::size_t i, SuggestPanelState& state) {
+    const SuggestLimit limit = suggestLimits[i];
+    const double scale = limit == SuggestLimit::ResidentBytes ? bytesOfMiB : 1;
+    SuggestBudgetEdit& edit = state.edits[i];
+    if (!edit.isOpen) {
+        edit.text.fill('\0');
+        limitText(limit, state.limits[i] * scale).copy(edit.text.data(), edit.text.size() - 1);
+    }
+    if (ImGui::InputText("##limit", edit.text.data(), edit.text.size(), ImGuiInputTextFlags_AutoSelectAll)) {
+        edit.isOpen = true;
+        const planet::Result<double> value = limitFromText(limit, edit.text.data());
+        edit.problem = value ? std::string() : value.error().message;
+        if (value) state.limits[i] = *value / scale;
+    }
+    if (!ImGui::IsItemActive() && edit.problem.empty()) edit.isOpen = false;
+}
+
+bool isUnreadable(const SuggestPanelState& state, std::size_t i) {
+    return state.on[i] && !state.edits[i].problem.empty();
+}
 
 void budgetControls(SuggestPanelState& state) {
     float labelWidth = 0;
@@ -81,12 +103,11 @@ void budgetControls(SuggestPanelState& state) {
         ImGui::SameLine(labelX + labelWidth + ImGui::GetStyle().ItemInnerSpacing.x);
         ImGui::SetNextItemWidth(-1);
         beginGrey(!state.on[i], "This budget is off.");
-        double limit = state.limits[i];
-        numberField("##limit", limit, field.unit);
+        budgetEdit(i, state);
         noteItem(field.label);
         tooltip(field.explanation);
         endGrey();
-        if (limit > 0 && std::isfinite(limit)) state.limits[i] = limit;
+        if (isUnreadable(state, i)) wrappedText(state.edits[i].problem, palette().warning);
         ImGui::PopID();
     }
 }
@@ -184,8 +205,11 @@ void startControl(const EditorView& view, const SuggestPanelState& state,
     for (const std::filesystem::path& file : all) {
         if (state.flights.contains(file.string())) start.flights.push_back(file);
     }
-    const char* problem = !view.planet                              ? "No planet is open."
-                          : start.budget.isEmpty()                  ? "Turn a budget on."
+    bool isRead = true;
+    for (std::size_t i = 0; i < suggestLimitCount; ++i) isRead = isRead && !isUnreadable(state, i);
+    const char* problem = !view.planet             ? "No planet is open."
+                          : !isRead                ? "Correct the budget that cannot be read."
+                          : start.budget.isEmpty() ? "Turn a budget on."
                           : start.flights.empty() && !state.surveys ? "Choose a flight or the whole planet."
                                                                     : "";
     beginGrey(*problem != '\0', problem);

@@ -1,6 +1,7 @@
 #include "ui/panels/sweep/suggest_panel.h"
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include <filesystem>
 #include <memory>
@@ -116,6 +117,31 @@ TEST_F(SuggestPanel, theResultIsAppliedSavedAndShown) {
     ASSERT_TRUE(commands[0].as<MoveCamera>());
     clicked("Row 1");
     EXPECT_EQ(state_.selected, 1u);
+}
+
+TEST_F(SuggestPanel, settingsThatStayAsTheyAreCannotBeApplied) {
+    showResult();
+    outcome_.found.best.candidate = outcome_.found.before.candidate;
+    outcome_.isMet = false;
+    EXPECT_TRUE(clicked("Apply").empty());
+}
+
+TEST_F(SuggestPanel, aBudgetThatCannotBeReadIsNotSearched) {
+    EXPECT_EQ(clicked("Suggest").size(), 1u);
+    state_.edits[1].problem = "\"20 q\" is no triangles";
+    EXPECT_TRUE(clicked("Suggest").empty());
+    state_.on[1] = false;
+    EXPECT_EQ(clicked("Suggest").size(), 1u);
+}
+
+TEST_F(SuggestPanel, aTypedBudgetTakesItsUnit) {
+    frame();
+    frame();
+    window_.click("/Triangles", 0.5f, [&] { frame(); });
+    ImGui::GetIO().AddInputCharactersUTF8("20k");
+    frame();
+    frame();
+    EXPECT_EQ(state_.limits[1], 20'000);
 }
 
 TEST_F(SuggestPanel, aResultOfAnotherPlanetCannotBeApplied) {
