@@ -90,7 +90,7 @@ ui::Message openingFailed(const std::filesystem::path& file, const planet::Error
     return {fmt::format("{} cannot be opened", file.filename().string()), error.message,
             fmt::format("The open planet is kept. Fix the file or open another: a "
                         "chunk file (.chk), an elevation image or raster, a cube face, a world file or "
-                        "settings (.toml), a recorded "
+                        "settings (.toml), regions (.regions.toml), an atlas (.atlas), a recorded "
                         "flight ({}), a trace (.lodtrace) or one of Worldy's own screenshots (.png).",
                         recordedFlightEnding),
             true};

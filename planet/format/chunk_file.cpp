@@ -98,8 +98,16 @@ Result<ChunkFile> ChunkFile::open(const std::filesystem::path& path, const FileC
         return ioError(fmt::format("{}: cannot be read: {}", file->name(), lastSystemError()));
     if (!S_ISREG(status.st_mode))
         return badInput(fmt::format("{}: is not a file; expected a baked chunk file", file->name()));
-    return open(file->name(), static_cast<std::uint64_t>(status.st_size),
-                [file](std::uint64_t offset, std::span<std::byte> out) { return file->read(offset, out); });
+    Result<ChunkFile> chunks =
+        open(file->name(), static_cast<std::uint64_t>(status.st_size),
+             [file](std::uint64_t offset, std::span<std::byte> out) { return file->read(offset, out); });
+    if (!chunks && path.extension() == ".toml") {
+        return badInput(fmt::format(
+            "{}: is a .toml file; expected a chunk file (.chk). A world file must be baked first: "
+            "worldy bake {} -o FILE.chk",
+            file->name(), file->name()));
+    }
+    return chunks;
 }
 
 Result<ChunkFile> ChunkFile::open(std::string name, std::uint64_t sizeBytes, ReadAt readAt) {

@@ -31,6 +31,12 @@ protected:
     Workspace workspace_;
 };
 
+TEST_F(NoticesTest, aFileThatCannotBeOpenedGetsAListOfAllThatCan) {
+    const ui::Message message = openingFailed("x.bin", planet::badInput("x.bin: is unknown").value());
+    for (const char* const ending : {".chk", ".toml", ".regions.toml", ".atlas", ".lodtrace", ".png"})
+        EXPECT_THAT(message.advice, HasSubstr(ending));
+}
+
 TEST_F(NoticesTest, aSecondErrorIsAddedToAnOpenMessage) {
     tellError(notices_, {"The first failed", "no disk", ""});
     tellError(notices_, {"The second failed", "no memory", ""});

@@ -102,6 +102,19 @@ TEST_F(ChunkFileTest, everyFlippedBitOfTheHeaderIsSeen) {
     EXPECT_TRUE(openBytes(bytes));
 }
 
+TEST_F(ChunkFileTest, aWorldFileIsSaidToNeedABake) {
+    const tests::TemporaryFolder folder;
+    const std::filesystem::path world = folder.path() / "earth.toml";
+    std::ofstream(world) << "[heights]\n";
+    const auto opened = ChunkFile::open(world);
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().message,
+              world.string() +
+                  ": is a .toml file; expected a chunk file (.chk). A world file must "
+                  "be baked first: worldy bake " +
+                  world.string() + " -o FILE.chk");
+}
+
 TEST_F(ChunkFileTest, truncatedFileIsRefusedAtEveryLength) {
     for (std::size_t size = 0; size < whole().size(); size += 977) {
         const Bytes cut(whole().begin(), whole().begin() + static_cast<std::ptrdiff_t>(size));
