@@ -344,9 +344,27 @@ float checkboxWidth(const char* label) {
     return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
 }
 
+std::string brokenAtSpaces(const std::string& text, float width) {
+    const auto widthOf = [](const std::string& line) { return ImGui::CalcTextSize(line.c_str()).x; };
+    std::string broken, line;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", begin + 1), text.size());
+        const std::string word = text.substr(begin, end - begin);  // with the space before it
+        begin = end;
+        if (word[0] != '\n' && (line.empty() || word[0] != ' ' || widthOf(line + word) <= width)) {
+            line += word;
+            continue;
+        }
+        broken += line + '\n';
+        line = word.substr(1);
+    }
+    return broken + line;
+}
+
 void wrappedText(const std::string& text, const ImVec4& colour) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s", inFont(text).c_str());
+    const std::string shown = brokenAtSpaces(inFont(text), ImGui::GetContentRegionAvail().x);
+    ImGui::TextWrapped("%s", shown.c_str());
     ImGui::PopStyleColor();
 }
 

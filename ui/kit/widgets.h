@@ -105,7 +105,10 @@ void sameLineIfRoom(float width);
 void sameLineForButton(const char* label);
 float checkboxWidth(const char* label);
 
-// Draws text wrapped at the panel's width.
+// Returns the text with line breaks at spaces, so that no line is wider. A word that is wider alone stays whole. Dear ImGui
+// would also break lines after a decimal point.
+std::string brokenAtSpaces(const std::string& text, float width);
+// Draws text wrapped at the panel's width, between words.
 void wrappedText(const std::string& text, const ImVec4& colour);
 
 // Draws a text. If it is wider than its room, the longest beginning that fits is followed by an ellipsis.

@@ -1,10 +1,13 @@
 #include "ui/kit/columns.h"
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include <array>
+#include <string>
 
 #include "tests/support/panel_fixture.h"
+#include "ui/kit/widgets.h"
 
 namespace worldy::ui {
 namespace {
@@ -41,6 +44,21 @@ TEST(Columns, areStackedWhereTheirNeedsDoNotFit) {
         EXPECT_TRUE(hasWideRoom(columnsThatNeed(300, 300)));
         EXPECT_FALSE(hasWideRoom(columnsThatNeed(500, 400)));
     });
+}
+
+TEST(WrappedText, linesBreakAtSpacesAndNeverInsideANumber) {
+    std::string broken;
+    PanelWindow panel({300, 200});
+    panel.frame([&] {
+        const std::string words = "8 measured, \u03c4 1.46 px";
+        const float upToPoint = ImGui::CalcTextSize("8 measured, \u03c4 1.").x;
+        broken = brokenAtSpaces(words, upToPoint);
+        EXPECT_EQ(brokenAtSpaces(words, 1e4f), words);
+        EXPECT_EQ(brokenAtSpaces("one\ntwo", 1e4f), "one\ntwo");
+        EXPECT_EQ(brokenAtSpaces("1234567.89", 1), "1234567.89");
+        EXPECT_EQ(brokenAtSpaces("", 10), "");
+    });
+    EXPECT_EQ(broken, "8 measured, \u03c4\n1.46 px");
 }
 
 }  // namespace

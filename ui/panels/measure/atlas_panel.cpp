@@ -370,15 +370,30 @@ void atlasMap(const AtlasView& atlas, AtlasPanelState& state, Commands& commands
 
 // The distribution.
 
+// Says what there is instead of values that could be in a histogram.
+std::string withoutDistribution(bool isChange, std::size_t lost, std::size_t gained) {
+    if (!isChange) return lost > 0 ? fmt::format("No bound in any of {} cells of this altitude.", lost) : "";
+    if (lost + gained == 0) return "No cell of this altitude has changed.";
+    return fmt::format("Cells of this altitude that have lost their bound: {}; that have gained one: {}.",
+                       lost, gained);
+}
+
 void atlasDistribution(const AtlasView& atlas) {
     const bool isChange = showsChange(atlas);
     std::vector<float> counts(atlasBuckets);
+    std::size_t lost = 0, gained = 0, counted = 0;
     for (const planet::AtlasCell& cell : shownCells(atlas)) {
         const double value = planet::figureOf(cell.values, atlas.drape->measure);
-        if (cell.altitude != atlas.altitude || !std::isfinite(value) || (isChange && value == 0)) continue;
+        if (cell.altitude != atlas.altitude || std::isnan(value) || (isChange && value == 0)) continue;
+        if (std::isinf(value)) {
+            ++(value > 0 ? lost : gained);
+            continue;
+        }
+        ++counted;
         const double share = shareOf(*atlas.drape, value);
         ++counts[std::min(static_cast<std::size_t>(share * atlasBuckets), atlasBuckets - 1)];
     }
+    if (counted == 0) return wrappedText(withoutDistribution(isChange, lost, gained), palette().dim);
     const auto text = [&](double share) { return drapeText(*atlas.drape, valueOf(*atlas.drape, share)); };
     histogram("atlas histogram", counts, scaleEndText(*atlas.drape, false), scaleEndText(*atlas.drape, true),
               {}, 4, text);
