@@ -400,6 +400,11 @@ void addAtlas(CLI::App& command, AtlasOptions& options, std::vector<std::string>
     CLI::Option* const diff =
         command.add_option("--diff", options.diff,
                            "Earlier atlas: surveys its viewpoints again, with its settings, and compares");
+    // The earlier atlas decides these.
+    for (const char* const chosen :
+         {"--altitudes", "--headings", "--pitch", "--viewpoints", "--cells", "--size", "--fov"}) {
+        if (CLI::Option* const option = command.get_option_no_throw(chosen)) diff->excludes(option);
+    }
     command
         .add_option("--limit", limits,
                     "With --diff: how far a measure may move, for example eps_px=+0.2, triangles=-10% or "

@@ -16,11 +16,12 @@ class AtlasCommand : public testing::Test {
 protected:
     void SetUp() override { bakePlanet(folder); }
     Ran atlas(const std::string& arguments) const {
-        return runWorldy(folder, "atlas planet.chk --size 640x400 --altitudes 2000,10000 " + arguments);
+        return runWorldy(folder, "atlas planet.chk " + arguments);
     }
     std::string file(const std::string& name) const { return contentOf(folder.path() / name); }
 
-    const std::string small = "--headings 2 --viewpoints 150 --set lod.tau_px=0.5 ";
+    const std::string places = "--size 640x400 --altitudes 2000,10000 ";
+    const std::string small = places + "--headings 2 --viewpoints 150 --set lod.tau_px=0.5 ";
     const TemporaryFolder folder;
 };
 
@@ -108,7 +109,8 @@ TEST_F(AtlasCommand, ResumesOnlyTheSameSurvey) {
     const Ran other = atlas(small + "-o part.atlas --resume --set lod.hysteresis=0.3");
     EXPECT_EQ(other.exitCode, 2);
     EXPECT_THAT(other.errors, HasSubstr("lod.hysteresis"));
-    const Ran grid = atlas("--headings 3 --viewpoints 150 --set lod.tau_px=0.5 -o part.atlas --resume");
+    const Ran grid =
+        atlas(places + "--headings 3 --viewpoints 150 --set lod.tau_px=0.5 -o part.atlas --resume");
     EXPECT_EQ(grid.exitCode, 2);
     EXPECT_THAT(grid.errors, HasSubstr("has other viewpoints"));
     const Ran resumed = atlas(small + "-o part.atlas --resume");
@@ -123,7 +125,7 @@ TEST_F(AtlasCommand, BadInputIsNamed) {
         EXPECT_EQ(ran.exitCode, 2) << arguments;
         return ran.errors;
     };
-    EXPECT_THAT(problem("--viewpoints 20 -o a.atlas"), HasSubstr("expected at least 48"));
+    EXPECT_THAT(problem(places + "--viewpoints 20 -o a.atlas"), HasSubstr("expected at least 48"));
     EXPECT_THAT(problem(""), HasSubstr("--output is required without --diff"));
     EXPECT_THAT(problem("--limit eps_px=+1 -o a.atlas"), HasSubstr("--diff"));
     EXPECT_THAT(problem("--diff planet.chk"), HasSubstr("planet.chk: is not an atlas"));
@@ -133,6 +135,12 @@ TEST_F(AtlasCommand, BadInputIsNamed) {
     EXPECT_THAT(problem("--diff a.atlas --limit speed=+1"), HasSubstr("speed=+1: is not a limit"));
     EXPECT_THAT(problem("--diff a.atlas --limit error_px=+1"), HasSubstr("--true-error"));
     EXPECT_THAT(problem("--diff a.atlas -o a.atlas"), HasSubstr("a.atlas"));
+    for (const char* const decided : {"--altitudes 100", "--headings 3", "--pitch -20", "--viewpoints 50",
+                                      "--cells 1", "--size 64x64", "--fov 40"}) {
+        const std::string option = decided;
+        EXPECT_THAT(problem("--diff a.atlas " + option),
+                    testing::AllOf(HasSubstr("--diff"), HasSubstr(option.substr(0, option.find(' ')))));
+    }
 }
 
 }  // namespace
