@@ -44,6 +44,8 @@ struct PageCanvas {
     // OpenImageIO 2.4 draws letters beyond ASCII as others: it keeps only the last six bits of each.
     void text(int atX, int atY, const std::string& words, int size = bodyPx,
               const PageColour& colour = pageInk, draw::TextAlignX align = draw::TextAlignX::Left) {
+        // OpenImageIO ends the program if it writes below the picture.
+        if (atY < 0 || atY + 2 * size > pageHeight) return;
         hasFont &= draw::render_text(image, atX, atY + size * 4 / 5, asciiOf(words), size, pageFont, colour,
                                      align, draw::TextAlignY::Baseline);
     }
@@ -52,23 +54,28 @@ struct PageCanvas {
         hasFont &= box.defined();
         return box.defined() ? box.width() : 0;
     }
-    // Writes words in lines as wide as fit, and moves below them.
-    void paragraph(const std::string& words, int size = bodyPx, const PageColour& colour = pageInk) {
+    // Returns words in lines as wide as fit.
+    std::vector<std::string> linesOf(const std::string& words, int size) {
         std::istringstream stream(words);
-        std::string line, word;
-        const int step = lineStepPx * size / bodyPx;
+        std::vector<std::string> lines;
+        std::string word;
         while (stream >> word) {
-            const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
-            if (!line.empty() && widthOf(longer, size) > pageWidth - 2 * margin) {
-                text(margin, y, line, size, colour);
-                y += step;
-                line = word;
-            } else {
-                line = longer;
-            }
+            const std::string longer = lines.empty() ? word : fmt::format("{} {}", lines.back(), word);
+            if (lines.empty() || widthOf(longer, size) > pageWidth - 2 * margin)
+                lines.push_back(word);
+            else
+                lines.back() = longer;
         }
-        if (!line.empty()) text(margin, y, line, size, colour);
-        y += step + step / 3;
+        return lines;
+    }
+    static int stepOf(int size) { return lineStepPx * size / bodyPx; }
+    // Writes words in such lines, and moves below them.
+    void paragraph(const std::string& words, int size = bodyPx, const PageColour& colour = pageInk) {
+        for (const std::string& line : linesOf(words, size)) {
+            text(margin, y, line, size, colour);
+            y += stepOf(size);
+        }
+        y += stepOf(size) / 3;
     }
     void rule(int x1, int y1, int x2, int y2, const PageColour& colour, int thickness = 1) {
         for (int away = 0; away < thickness; ++away) {
@@ -206,7 +213,9 @@ planet::Result<Picture> drawSuggestPage(const SuggestPage& page) {
     canvas.y += 12;
     for (const std::string& paragraph : page.paragraphs) canvas.paragraph(paragraph);
     for (const auto& table : page.tables) drawTable(canvas, table);
-    constexpr int notesHeight = 110, leastPlotHeight = 180, mostPlotHeight = 300;
+    constexpr int leastPlotHeight = 180, mostPlotHeight = 300;
+    const int noteLines = static_cast<int>(canvas.linesOf(page.notes, smallPx).size());
+    const int notesHeight = noteLines * PageCanvas::stepOf(smallPx) + 12;
     const int foot = pageHeight - margin - notesHeight;
     const int room = foot - canvas.y;
     if (!page.points.empty() && room > leastPlotHeight)
