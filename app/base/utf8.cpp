@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -13,7 +12,7 @@ namespace worldy {
 
 namespace {
 
-// What letters from U+00A0 to U+017F are made of: a row of 16 for each sixteenth.
+// Spells the letters from U+00A0 to U+017F in ASCII; a row has 16 of them.
 constexpr std::array<std::string_view, 224> latinLetters = {
     " ",    "!",  "c",  "GBP", "?", "JPY", "|",  "?", "?", "(c)", "a", "<<", "-",   "",    "(r)", "-",   //
     " deg", "+-", "2",  "3",   "'", "u",   "?",  ".", ",", "1",   "o", ">>", "1/4", "1/2", "3/4", "?",   //

@@ -151,7 +151,10 @@ std::vector<std::uint16_t> samplesOfPgm(const std::filesystem::path& file) {
         while (pgm >> text && text.starts_with('#')) std::getline(pgm, text);  // a comment
         return text;
     };
-    const std::string magic = word(), width = word(), height = word(), most = word();
+    const std::string magic = word();
+    word();  // the width
+    word();  // the height
+    const std::string most = word();
     pgm.get();  // the one white space before the samples
     std::vector<std::uint16_t> samples;
     if (magic != "P5" || most != "65535") return samples;

@@ -30,7 +30,6 @@
 #include "app/session/overloaded.h"
 #include "app/session/session.h"
 #include "app/settings/settings.h"
-#include "app/settings/settings_text.h"
 #include "app/settings/view_settings.h"
 #include "planet/base/result.h"
 #include "planet/base/try.h"

@@ -34,7 +34,7 @@ struct RegionFiles {
         quitQuestion{};  // files whose changes the user would lose by quitting; empty: not asked
 };
 
-// What came of saving.
+// Tells how an attempt to save regions ended.
 struct RegionsSave {
     std::filesystem::path file{};  // that was written; empty: nothing was, because the user must be asked
     std::string question{};        // says what saving would destroy

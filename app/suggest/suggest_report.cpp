@@ -46,7 +46,8 @@ std::string regionsNote(const SuggestOutcome& outcome) {
     const SuggestCandidate& best = outcome.found.best.candidate;
     if (best.regions.empty()) return "";
     const planet::Region& region = best.regions.front();
-    std::string where = fmt::format("{} circles around the places that cost most", region.circles.size());
+    std::string where =
+        fmt::format("{} around the places that cost most", countedText(region.circles.size(), "circle"));
     if (region.heights)
         where = fmt::format("ground between {:.0f} and {:.0f} m", region.heights->lowestM,
                             region.heights->highestM);

@@ -1,4 +1,4 @@
-// What the program that copies netCDF files and the one that starts it agree on.
+// Defines how the program that copies netCDF files and the one that starts it talk to each other.
 #pragma once
 
 namespace planet {

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "planet/base/open_file.h"
 #include "planet/base/try.h"
 
 namespace planet {

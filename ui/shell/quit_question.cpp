@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include "ui/kit/item_map.h"
-#include "ui/kit/theme.h"
 #include "ui/kit/widgets.h"
 
 namespace worldy::ui {

@@ -2,13 +2,13 @@
 // the libraries that read netCDF crash on damaged files: the program that starts it then still runs (../netcdf_copy.h).
 #include <cpl_conv.h>
 #include <cpl_error.h>
-#include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a suggestion for a trace says of values that the trace does not tell.
+// Tests that a suggestion for a trace calls unknown what the trace does not tell.
 #include "app/suggest/suggest_trace.h"
 
 #include <gmock/gmock.h>

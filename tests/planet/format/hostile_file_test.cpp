@@ -152,7 +152,7 @@ TEST(HostileFile, AnIndexOfMoreThanFourChunksIsRefused) {
     EXPECT_THAT(entries.error().message, HasSubstr("names chunks that it does not hold"));
 }
 
-// Such numbers would make an index longer than what readEntries reads of a block.
+// With such numbers, an index would be longer than the part of a block that readEntries reads.
 TEST(HostileFile, NumbersThatAreLongerThanTheyNeedToBeAreRefusedByBothReaders) {
     HostileFile file;
     const BlockLocation children = file.add(Bytes(200));
