@@ -37,18 +37,26 @@ ProjPtr between(PJ_CONTEXT* context, const PJ* from, const PJ* to) {
     return ProjPtr(plain ? proj_normalize_for_visualization(context, plain.get()) : nullptr);
 }
 
+// Returns false if a reference system has the code of another kind of system in PROJ's database. PROJ 9.1 crashes on one.
+bool hasCodeOfItsKind(PJ_CONTEXT* context, const PJ* system) {
+    const char* const authority = proj_get_id_auth_name(system, 0);
+    const char* const code = proj_get_id_code(system, 0);
+    if (!authority || !code) return true;
+    const ProjPtr known(proj_create_from_database(context, authority, code, PJ_CATEGORY_CRS, 0, nullptr));
+    return !known || proj_get_type(known.get()) == proj_get_type(system);
+}
+
 std::optional<Transformation> makeTransformation(const std::string& crs) {
     Transformation made{makeProjContext(), nullptr};
     PJ_CONTEXT* const context = made.context.get();
     const ProjPtr target(proj_create(context, crs.c_str()));
     const ProjPtr wgs84(proj_create(context, "EPSG:4326"));
-    if (!target || !wgs84) return std::nullopt;
+    if (!target || !wgs84 || !hasCodeOfItsKind(context, target.get())) return std::nullopt;
+    const ProjPtr base(proj_crs_get_geodetic_crs(context, target.get()));
+    if (base && !hasCodeOfItsKind(context, base.get())) return std::nullopt;
     made.forward = between(context, wgs84.get(), target.get());
-    if (!made.forward) {
-        // PROJ refuses to go from the Earth to another body, whose own latitude and longitude are meant then.
-        const ProjPtr own(proj_crs_get_geodetic_crs(context, target.get()));
-        if (own) made.forward = between(context, own.get(), target.get());
-    }
+    // PROJ refuses to go from the Earth to another body, whose own latitude and longitude are meant then.
+    if (!made.forward && base) made.forward = between(context, base.get(), target.get());
     if (!made.forward) return std::nullopt;
     return made;
 }

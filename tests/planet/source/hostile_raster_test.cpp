@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "planet/raster/raster_placement.h"
 #include "tests/planet/source/height_source_fixture.h"
 #include "tests/planet/source/raster_fixture.h"
 
@@ -183,6 +184,17 @@ TEST_F(HostileRaster, VrtThatClaimsMoreThanItsSourcesIsRefused) {
         "<SourceFilename relativeToVRT=\"1\">a.tif</SourceFilename><SourceBand>1</SourceBand>"
         "</SimpleSource></VRTRasterBand></VRTDataset>");
     EXPECT_THAT(errorOf(folder / "a.vrt"), HasSubstr("expected at most 2^38"));
+}
+
+TEST_F(HostileRaster, ACodeOfAnotherKindOfReferenceSystemIsRefused) {
+    // EPSG:4342 is geocentric. PROJ 9.1 crashed on the transformation to it.
+    const std::string crs =
+        "GEOGCRS[\"a\",DATUM[\"b\",ELLIPSOID[\"GRS 1980\",6378137,298.257222101]],CS[ellipsoidal,2],"
+        "AXIS[\"latitude\",north],AXIS[\"longitude\",east],ANGLEUNIT[\"degree\",0.0174532925199433],"
+        "ID[\"EPSG\",4342]]";
+    const auto placement = RasterPlacement::make("a.tif", {{10, 1, 0}, {45, 0, 1}, crs});
+    ASSERT_FALSE(placement);
+    EXPECT_THAT(placement.error().message, HasSubstr("a.tif: "));
 }
 
 }  // namespace
