@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "app/base/interrupt.h"
@@ -18,7 +19,6 @@
 #include "app/base/output_file.h"
 #include "app/base/report.h"
 #include "app/base/text.h"
-#include "app/data/bake_progress.h"
 #include "app/data/data_set.h"
 #include "app/measure/sweep_files.h"
 #include "app/scene/offscreen.h"
@@ -46,7 +46,10 @@ public:
     }
     void show(const SuggestProgress& progress) {
         if (!isTerminal_) {
-            if (progress.stage != stage_ || !begun_) printMessage("{}\n", partText(progress));
+            if (std::string part = partText(progress); part != part_) {
+                printMessage("{}\n", part);
+                part_ = std::move(part);
+            }
         } else if (const auto now = std::chrono::steady_clock::now();
                    now - shownAt_ > std::chrono::milliseconds(100)) {
             printMessage("\r\033[K{}", text(progress));
@@ -54,15 +57,15 @@ public:
             isOpen_ = true;
             shownAt_ = now;
         }
-        stage_ = progress.stage;
-        begun_ = true;
     }
 
 private:
-    static const char* partText(const SuggestProgress& progress) {
+    static std::string partText(const SuggestProgress& progress) {
         switch (progress.stage) {
             case SuggestStage::Surveying:
                 return "surveying the planet";
+            case SuggestStage::Baking:
+                return fmt::format("baking chunks of {}", progress.candidate.chunkSize);
             case SuggestStage::Timing:
                 return "timing frames";
             case SuggestStage::Searching:
@@ -85,8 +88,7 @@ private:
 
     bool isTerminal_ = ::isatty(STDERR_FILENO) != 0;
     bool isOpen_ = false;
-    bool begun_ = false;
-    SuggestStage stage_ = SuggestStage::Surveying;
+    std::string part_;  // written last, if this is no terminal
     std::chrono::steady_clock::time_point shownAt_{};
 };
 
@@ -115,10 +117,9 @@ Result<SuggestRequest> requestFor(const SuggestOptions& options) {
     return request;
 }
 
-// Bakes the other chunk sizes.
-Result<std::vector<SuggestBake>> bakesFor(const SuggestOptions& options, const InterruptWatch& watch) {
-    std::vector<SuggestBake> bakes;
-    if (options.chunkSizes.empty()) return bakes;
+// Finds the bakes with the other chunk sizes.
+Result<SweptFiles> bakesFor(const SuggestOptions& options) {
+    if (options.chunkSizes.empty()) return SweptFiles{};
     TRY_ASSIGN(const planet::ChunkFile chunks, planet::ChunkFile::open(options.file));
     std::vector<int> others = options.chunkSizes;
     std::erase(others, planet::chunkSize(chunks.info().shape));
@@ -127,17 +128,7 @@ Result<std::vector<SuggestBake>> bakesFor(const SuggestOptions& options, const I
             fmt::format("{}: does not say what it was baked from; expected --source, or no --chunk",
                         options.file.string()));
     }
-    TRY_ASSIGN(const SweptFiles swept,
-               sweptFilesOf(options.file, others, options.sourceSettings, options.source));
-    for (const SweptFile& file : swept.files) {
-        TerminalProgress line;
-        TRY(bakeSwept(swept, file, options.sourceSettings, [&](const planet::BakeProgress& progress) {
-            line.show(progress);
-            return !watch.interrupted();
-        }));
-        bakes.push_back({file.chunkSize, file.chunkFile});
-    }
-    return bakes;
+    return sweptFilesOf(options.file, others, options.sourceSettings, options.source);
 }
 
 void printSuggestion(const SuggestOutcome& outcome, const std::vector<fs::path>& written) {
@@ -187,8 +178,9 @@ Result<bool> suggestTrace(const SuggestOptions& options) {
 Result<bool> runSuggestCommand(const SuggestOptions& options) {
     if (isTraceFile(options.file)) return suggestTrace(options);
     TRY_ASSIGN(SuggestRequest request, requestFor(options));
+    TRY_ASSIGN(request.bakes, bakesFor(options));
+    request.sourceSettings = options.sourceSettings;
     const InterruptWatch watch;
-    TRY_ASSIGN(request.bakes, bakesFor(options, watch));
     SuggestOutcome outcome;
     {
         SuggestLine line;

@@ -563,8 +563,7 @@ void Editor::execute(const ui::Command& command, const Window& window, Session& 
                 worldy::execute(files_.trace, c, settings_.settings.workspace, radiusM, notices_, next);
             },
             [&](const ui::SuggestCommand& c) {
-                worldy::execute(instruments_.suggest, c, {shownPlanet(session), settings_, replaying()},
-                                notices_);
+                worldy::execute(instruments_.suggest, c, {session, settings_, replaying()}, notices_);
             },
             [&](const ui::AtlasCommand& c) {
                 worldy::execute(instruments_.atlas, c,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -18,14 +19,19 @@
 #include "app/base/text.h"
 #include "app/data/data_set.h"
 #include "app/editor/settings_controller.h"
+#include "app/editor/sweep_controller.h"
+#include "app/measure/sweep_files.h"
 #include "app/session/notices.h"
 #include "app/session/overloaded.h"
 #include "app/session/session.h"
 #include "app/suggest/suggest_files.h"
 #include "app/suggest/suggest_job.h"
+#include "app/suggest/suggest_meter.h"
+#include "app/suggest/suggest_plans.h"
 #include "app/suggest/suggest_report.h"
 #include "app/suggest/suggest_run.h"
 #include "planet/base/result.h"
+#include "planet/tree/region.h"
 #include "ui/model/commands.h"
 #include "ui/model/suggest_view.h"
 
@@ -37,12 +43,28 @@ using planet::Result;
 
 void startSuggest(SuggestController& controller, const ui::StartSuggest& start, const SuggestContext& context,
                   Notices& notices) {
-    if (!context.open || controller.job) return;
+    const OpenPlanet* const open = shownPlanet(context.session);
+    if (!open || controller.job) return;
+    controller.outcome.reset();
+    controller.trials.clear();
+    controller.problem.clear();
+    controller.cancelled = false;
+    controller.planet = sourceName(open->data.source);
+    controller.chunkSize = planet::chunkSize(open->scene.planet->tree().shape);
     SuggestRequest request;
-    request.file = context.open->data.chunkFile;
-    request.colourImage = context.open->data.colourImage;
+    request.file = open->data.chunkFile;
+    request.sourceSettings = open->baked.sourceSettings;
+    if (Result<SweptFiles> bakes = sweptFilesOf(*open, start.chunkSizes)) {
+        request.bakes = std::move(*bakes);
+    } else {
+        controller.problem = bakes.error().message;
+        notices.log->error("{}", controller.problem);
+        return;
+    }
+    request.colourImage = open->data.colourImage;
     request.budget = start.budget;
     request.flights = start.flights;
+    request.viewsOfRecordings = true;
     if (start.surveys) {
         constexpr std::uint64_t viewpoints = 300;
         request.survey.emplace().most = viewpoints;
@@ -51,21 +73,20 @@ void startSuggest(SuggestController& controller, const ui::StartSuggest& start, 
     request.view = context.settings.settings.view;
     request.size = start.size;
     controller.request = request;
-    controller.planet = sourceName(context.open->data.source);
-    controller.trials.clear();
-    controller.outcome.reset();
-    controller.problem.clear();
-    controller.cancelled = false;
     notices.log->info("Searching settings for {}", budgetText(request.budget));
     controller.job = std::make_unique<SuggestJob>(std::move(request));
 }
 
 void applySuggest(const SuggestController& controller, const SuggestContext& context, Notices& notices) {
-    if (!controller.outcome || !context.open) return;
+    const OpenPlanet* const open = shownPlanet(context.session);
+    if (!controller.outcome || !open) return;
     if (!mayChange("Settings", context.replaying, notices.log)) return;
     const ViewSettings& now = context.settings.settings.view;
     ViewSettings wanted = settingsToApply(now, *controller.outcome);
     if (!(wanted == now)) replaceView(context.settings, std::move(wanted), "suggested settings");
+    if (open->data.chunkFile == controller.outcome->file) return;
+    openSwept(controller.request.bakes, controller.request.sourceSettings,
+              controller.outcome->found.best.candidate.chunkSize, context.session, now, notices.log);
 }
 
 // Returns the report's file. The name of the report is taken first, so that nothing is overwritten.
@@ -132,10 +153,20 @@ ViewSettings settingsToApply(const ViewSettings& now, const SuggestOutcome& outc
     view.lod.morphRange = outcome.settings.lod.morphRange;
     view.paging.budgetMB = outcome.settings.paging.budgetMB;
     view.budget = outcome.settings.budget;
-    if (!outcome.regionsText.empty()) {
-        view.regions.list = outcome.settings.regions.list;
-        view.regions.on = true;
+    const SuggestCandidate& candidate = outcome.found.best.candidate;
+    if (candidate.regions.empty()) return view;
+    // Regions that were applied before are not added twice.
+    std::vector<planet::Region> own = now.regions.all();
+    std::erase_if(own, [&](const planet::Region& one) {
+        return std::ranges::find(candidate.regions, one) != candidate.regions.end();
+    });
+    std::vector<planet::Region> suggested = candidate.regions;
+    for (planet::Region& region : suggested) {
+        if (std::ranges::find(own, region.name, &planet::Region::name) != own.end())
+            region.name = newRegionName(candidate.plan, own);
     }
+    view.regions.list = std::make_shared<const std::vector<planet::Region>>(std::move(own));
+    view.regions = regionsWith(view.regions, suggested);
     return view;
 }
 
@@ -144,8 +175,10 @@ ui::SuggestView suggestViewOf(const SuggestController& controller, const OpenPla
     view.outcome = controller.outcome ? &*controller.outcome : nullptr;
     view.planet = controller.planet;
     if (open) view.openPlanet = sourceName(open->data.source);
-    view.fitsPlanet = open && open->data.chunkFile == controller.request.file;
+    view.fitsPlanet = open && (open->data.chunkFile == controller.request.file ||
+                               (view.outcome && open->data.chunkFile == view.outcome->file));
     view.budget = controller.request.budget;
+    view.chunkSize = controller.chunkSize;
     view.trials = controller.trials;
     view.problem = controller.problem;
     if (!controller.job) return view;

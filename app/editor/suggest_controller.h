@@ -24,6 +24,7 @@ struct SuggestController {
     std::unique_ptr<SuggestJob> job{};  // at most one
     SuggestRequest request{};           // of the job, or of the last one
     std::string planet{};               // of the request, as the window names it
+    int chunkSize = 0;                  // of that planet
     std::vector<SuggestTrial> trials{};
     std::optional<SuggestOutcome> outcome{};
     std::string problem{};
@@ -31,7 +32,7 @@ struct SuggestController {
 };
 
 struct SuggestContext {
-    const OpenPlanet* open;  // null if no planet is shown
+    Session& session;
     SettingsController& settings;
     bool replaying = false;  // settings then stay as they are
 };
@@ -41,7 +42,7 @@ void execute(SuggestController& controller, const ui::SuggestCommand& command, c
 // Call every frame; takes trials and the result of a search.
 void advanceSuggest(SuggestController& controller, const Log& log);
 
-// Returns the settings now with those that a suggestion chose, and its regions.
+// Returns the settings now with those that a suggestion chose, and with the regions that it adds to those of now.
 ViewSettings settingsToApply(const ViewSettings& now, const SuggestOutcome& outcome);
 
 // open: the shown planet; null if there is none.

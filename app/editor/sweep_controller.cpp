@@ -89,12 +89,28 @@ Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const SweepRequest& reques
                    .view = settings};
     std::vector<int> sizes = request.chunkSizes;
     if (sizes.empty()) sizes.push_back(planet::chunkSize(open.scene.planet->tree().shape));
-    for (const int size : sizes) {
+    Result<SweptFiles> swept = sweptFilesOf(open, sizes);
+    if (!swept) return tl::unexpected(swept.error());
+    plan.files = std::move(swept->files);
+    return plan;
+}
+
+Result<SweptFiles> sweptFilesOf(const OpenPlanet& open, const std::vector<int>& chunkSizes) {
+    SweptFiles swept{open.baked.source, {}};
+    for (const int size : chunkSizes) {
         Result<SweptFile> file = sweptFileOf(open, size);
         if (!file) return tl::unexpected(file.error());
-        plan.files.push_back(std::move(*file));
+        swept.files.push_back(std::move(*file));
     }
-    return plan;
+    return swept;
+}
+
+void openSwept(const SweptFiles& files, const planet::HeightSourceSettings& sourceSettings, int chunkSize,
+               Session& session, const ViewSettings& settings, const Log& log) {
+    const auto file = std::ranges::find(files.files, chunkSize, &SweptFile::chunkSize);
+    if (file == files.files.end()) return;
+    openBake(session, {.source = files.source, .sourceSettings = sourceSettings, .settings = file->bake},
+             file->chunkFile, settings, log);
 }
 
 void startSweep(SweepController& controller, const OpenPlanet* open, const SweepRequest& request,
@@ -121,8 +137,7 @@ void startSweep(SweepController& controller, const OpenPlanet* open, const Sweep
                                       .source = open->data.source,
                                       .points = {},
                                       .whole = false};
-        controller.files = plan->files;
-        controller.bakeSource = plan->source;
+        controller.swept = {plan->source, plan->files};
         controller.sourceSettings = plan->sourceSettings;
     }
     log->info("{} over {}", controller.suggesting ? "Searching for a tolerance" : "Sweeping", path->name);
@@ -141,7 +156,7 @@ void advanceSweep(SweepController& controller, const Log& log) {
     controller.job.reset();
     if (!controller.suggesting) {
         controller.table->whole = result->has_value();
-        controller.measured = measuredFilesOf(controller.files);
+        controller.measured = measuredFilesOf(controller.swept.files);
     }
     if (*result) {
         log->info("{}", controller.suggesting
@@ -152,18 +167,6 @@ void advanceSweep(SweepController& controller, const Log& log) {
     controller.problem = messageOf(result->error(), controller);
     controller.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
     log->log(controller.cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
-}
-
-void openSweptChunks(const SweepController& controller, int chunkSize, Session& session,
-                     const ViewSettings& settings, const Log& log) {
-    const auto file = std::find_if(controller.files.begin(), controller.files.end(),
-                                   [&](const SweptFile& swept) { return swept.chunkSize == chunkSize; });
-    if (file == controller.files.end()) return;
-    BakeRequest request;
-    request.source = controller.bakeSource;
-    request.sourceSettings = controller.sourceSettings;
-    request.settings = file->bake;
-    openBake(session, request, file->chunkFile, settings, log);
 }
 
 Result<fs::path> saveSweep(const SweepController& controller, SweepCost cost, const fs::path& folder) {
@@ -203,7 +206,7 @@ void keepResults(const SweepController& controller, KeptResults& kept) {
         if (!planet::isTerrainText(sweep.table.source))
             sweep.table.source = fs::absolute(sweep.table.source, status);
         sweep.files = controller.measured;
-        for (const SweptFile& file : controller.files) sweep.chunkSizes.push_back(file.chunkSize);
+        for (const SweptFile& file : controller.swept.files) sweep.chunkSizes.push_back(file.chunkSize);
     }
     if (!controller.suggestions.empty())
         kept.suggestions = KeptSuggestions{controller.suggestions, controller.suggestedFor};
@@ -222,7 +225,7 @@ void restoreResults(SweepController& controller, const KeptResults& kept, const 
             controller.table = sweep.table;
             controller.measured = sweep.files;
             for (std::size_t i = 0; i < sweep.files.size(); ++i)
-                controller.files.push_back(
+                controller.swept.files.push_back(
                     {.chunkSize = sweep.chunkSizes[i], .chunkFile = sweep.files[i].file});
         }
     }
@@ -248,7 +251,8 @@ void execute(SweepController& controller, const ui::SweepCommand& command, Sessi
                                                     plot->string()));
                    },
                    [&](const ui::OpenSweptChunks& open) {
-                       openSweptChunks(controller, open.chunkSize, session, settings, notices.log);
+                       openSwept(controller.swept, controller.sourceSettings, open.chunkSize, session,
+                                 settings, notices.log);
                    },
                },
                command);

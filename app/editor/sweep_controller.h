@@ -8,6 +8,7 @@
 
 #include "app/base/log.h"
 #include "app/measure/kept_results.h"
+#include "app/measure/sweep_files.h"
 #include "app/measure/sweep_job.h"
 #include "app/session/notices.h"
 #include "app/session/session.h"
@@ -20,9 +21,8 @@ namespace worldy {
 struct SweepController {
     std::unique_ptr<SweepJob> job{};  // at most one
     bool suggesting = false;          // the job searches for a tau
-    std::vector<SweptFile> files{};   // the chunk files of the table
+    SweptFiles swept{};               // the chunk files of the table
     planet::HeightSourceSettings sourceSettings{};
-    std::filesystem::path bakeSource{};  // of the files; empty if unknown
     std::optional<SweepTable> table{};
     std::vector<SweepSuggestion> suggestions{};
     std::vector<MeasuredFile> measured{};      // the files of the table, as they were when it ended
@@ -37,16 +37,19 @@ struct SweepController {
 planet::Result<SweepPlan> sweepPlanOf(const OpenPlanet& open, const SweepRequest& request,
                                       const ViewSettings& settings);
 
+// Returns the chunk files of other chunk sizes, which are bakes in the cache with the planet's other settings. The Error is
+// that of sweepPlanOf.
+planet::Result<SweptFiles> sweptFilesOf(const OpenPlanet& open, const std::vector<int>& chunkSizes);
+// Shows one of these files. A file that is gone is baked again.
+void openSwept(const SweptFiles& files, const planet::HeightSourceSettings& sourceSettings, int chunkSize,
+               Session& session, const ViewSettings& settings, const Log& log);
+
 // open: null if no planet is open. The log and the panel report why a sweep cannot start.
 void startSweep(SweepController& controller, const OpenPlanet* open, const SweepRequest& request,
                 const ViewSettings& settings, const Log& log);
 void cancelSweep(SweepController& controller);
 // Call every frame; takes new results.
 void advanceSweep(SweepController& controller, const Log& log);
-
-// Shows the chunks of a swept size, without a bake if their file still exists.
-void openSweptChunks(const SweepController& controller, int chunkSize, Session& session,
-                     const ViewSettings& settings, const Log& log);
 
 // Saves a complete table as CSV and JSON, and the plot, under one new name in an existing folder. Returns the
 // plot's file. If the plot cannot be drawn, the Error says so and the tables remain.

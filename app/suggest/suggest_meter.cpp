@@ -263,19 +263,6 @@ SuggestMeasured gathered(const std::vector<SuggestLeg>& legs, const std::vector<
     return result;
 }
 
-// The planet's regions, and those of the candidate, whose names must differ. If the planet's are switched off, each of
-// them is switched off by itself, so that those of the candidate can apply and none is lost.
-RegionSettings regionsWith(const RegionSettings& now, const std::vector<planet::Region>& more) {
-    if (more.empty()) return now;
-    RegionSettings all = now;
-    std::vector<planet::Region> list = now.all();
-    for (planet::Region& region : list) region.on &= now.on;
-    list.insert(list.end(), more.begin(), more.end());
-    all.list = std::make_shared<const std::vector<planet::Region>>(std::move(list));
-    all.on = true;
-    return all;
-}
-
 }  // namespace
 
 Result<SuggestLeg> legOf(const FlightPath& path, double stepS, double radiusM, double fovDeg,
@@ -292,7 +279,7 @@ Result<SuggestLeg> legOf(const FlightPath& path, double stepS, double radiusM, d
 }
 
 SuggestLeg legOf(const FlightRecord& record) {
-    SuggestLeg leg{.name = record.name, .isFlown = true, .frames = {}};
+    SuggestLeg leg{.name = record.name, .isFlown = true, .isRecorded = true, .frames = {}};
     for (const FlightFrame& frame : record.frames)
         leg.frames.push_back({frame.views[0].view, false, frame.elapsedS});
     return leg;
@@ -310,6 +297,17 @@ SuggestLeg legOf(const planet::Atlas& atlas) {
                               false, 0});
     }
     return leg;
+}
+
+RegionSettings regionsWith(const RegionSettings& now, const std::vector<planet::Region>& more) {
+    if (more.empty()) return now;
+    RegionSettings all = now;
+    std::vector<planet::Region> list = now.all();
+    for (planet::Region& region : list) region.on &= now.on;
+    list.insert(list.end(), more.begin(), more.end());
+    all.list = std::make_shared<const std::vector<planet::Region>>(std::move(list));
+    all.on = true;
+    return all;
 }
 
 ViewSettings settingsWith(const ViewSettings& now, const SuggestCandidate& candidate) {

@@ -33,8 +33,9 @@ struct SuggestFrame {
 
 // Frames that follow each other, or viewpoints.
 struct SuggestLeg {
-    std::string name;      // for users
-    bool isFlown = false;  // its frames follow each other in time; otherwise each is settled on its own
+    std::string name;         // for users
+    bool isFlown = false;     // its frames follow each other in time; otherwise each is settled on its own
+    bool isRecorded = false;  // its views have sizes of their own
     std::vector<SuggestFrame> frames;  // at least one
 };
 // Returns the frames of a flight, one every stepS seconds, > 0. The Error is that of flightViews.
@@ -74,6 +75,9 @@ struct SuggestGround {
     double heightM = 0;  // of its middle between lowest and highest, above the radius, without exaggeration
 };
 
+// Returns the planet's regions, and those of a candidate, whose names must differ. If the planet's are switched off, each of
+// them is switched off by itself, so that those of the candidate can apply and none is lost.
+RegionSettings regionsWith(const RegionSettings& now, const std::vector<planet::Region>& more);
 // The settings of now with those of a candidate.
 ViewSettings settingsWith(const ViewSettings& now, const SuggestCandidate& candidate);
 // Returns the candidate that the settings of now are.

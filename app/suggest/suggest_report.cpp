@@ -236,8 +236,9 @@ std::string chunkSizeText(const SuggestOutcome& outcome) {
         outcome.found.trials, [](const SuggestTrial& trial) { return trial.candidate.chunkSize > 0; });
     if (chunkSize > 0)
         return fmt::format(
-            "The suggestion needs another bake, with --chunk-size {}; it was measured with {}.", chunkSize,
-            outcome.file.string());
+            "The suggestion has chunks of {0} and needs another bake, with --chunk-size {0}; it was measured "
+            "with {1}.",
+            chunkSize, outcome.file.string());
     if (varies) return "Other chunk sizes were measured too, and are not better.";
     return "The chunk size was not varied, because another one needs another bake.";
 }

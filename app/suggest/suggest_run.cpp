@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -20,6 +21,7 @@
 #include "app/flight/flight_path_file.h"
 #include "app/flight/flight_record.h"
 #include "app/measure/atlas_survey.h"
+#include "app/measure/sweep_files.h"
 #include "app/scene/offscreen.h"
 #include "app/scene/scene_settings.h"
 #include "app/settings/region_file.h"
@@ -27,6 +29,7 @@
 #include "app/settings/settings_text.h"
 #include "app/settings/shot_line.h"
 #include "app/suggest/suggest_plans.h"
+#include "planet/bake/bake_report.h"
 #include "planet/base/result.h"
 #include "planet/base/try.h"
 #include "planet/format/chunk_file.h"
@@ -57,6 +60,7 @@ public:
         scope_ = scope;
         began_ = {};
     }
+    void beginBake(int chunkSize) { progress_.candidate.chunkSize = chunkSize; }
     void end() {
         Times& times = of(scope_);
         times.sumS += began_.elapsedMs() / 1000;
@@ -96,8 +100,8 @@ private:
     std::array<Times, 2> times_{};
 };
 
-Result<SuggestLeg> recordedLeg(const fs::path& file, const planet::ChunkFile& chunks) {
-    TRY_ASSIGN(const FlightRecord record, loadFlightRecord(file));
+Result<SuggestLeg> recordedLeg(const fs::path& file, const FlightRecord& record,
+                               const planet::ChunkFile& chunks) {
     TRY(checkSameData(file, record.data, flightDataOf(chunks)));
     if (record.frames.empty())
         return planet::badInput(fmt::format("{}: has no frames; expected at least one", file.string()));
@@ -130,13 +134,24 @@ Result<std::vector<SuggestLeg>> legsOf(const SuggestRequest& request, const plan
     };
     const double radiusM = chunks.info().shape.radiusM;
     for (const fs::path& file : request.flights) {
+        if (request.viewsOfRecordings && file.extension() == ".flight") {
+            const Result<FlightRecord> record = loadFlightRecord(file);
+            Result<SuggestLeg> leg =
+                record ? recordedLeg(file, *record, chunks) : tl::unexpected(record.error());
+            if (leg) {
+                leg->name += " (as recorded)";
+                add(std::move(*leg), file);
+                continue;
+            }
+        }
         TRY_ASSIGN(const FlightPath path, loadFlightPath(file));
         TRY_ASSIGN(SuggestLeg leg,
                    legOf(path, request.stepS, radiusM, request.view.camera.fovDeg, request.size));
         add(std::move(leg), file);
     }
     for (const fs::path& file : request.recordings) {
-        TRY_ASSIGN(SuggestLeg leg, recordedLeg(file, chunks));
+        TRY_ASSIGN(const FlightRecord record, loadFlightRecord(file));
+        TRY_ASSIGN(SuggestLeg leg, recordedLeg(file, record, chunks));
         add(std::move(leg), file);
     }
     if (request.survey) {
@@ -207,7 +222,7 @@ SuggestRanges rangesOf(const SuggestRequest& request) {
                          .metrics = {now.metric},
                          .morphRanges = {now.morphRange},
                          .memoriesMiB = {now.memoryMiB}};
-    for (const SuggestBake& bake : request.bakes) ranges.chunkSizes.push_back(bake.chunkSize);
+    for (const SweptFile& bake : request.bakes.files) ranges.chunkSizes.push_back(bake.chunkSize);
     if (request.vary.metric)
         ranges.metrics = firstThen(now.metric, {planet::ErrorMetric::Additive, planet::ErrorMetric::Tight});
     if (request.vary.morph && request.view.lod.morph)
@@ -231,13 +246,13 @@ struct MeteredFile {
     std::unique_ptr<SuggestMeter> meter;
 };
 
-Result<MeteredFile> meteredFile(const SuggestRequest& request, const SuggestBake& bake,
+Result<MeteredFile> meteredFile(const SuggestRequest& request, int chunkSize, const fs::path& file,
                                 const std::vector<SuggestLeg>& legs, SuggestClock& clock) {
-    MeteredFile metered{bake.chunkSize, bake.file, {}, {}};
-    TRY_ASSIGN(metered.cost, frameCostOf(request, bake.file, legs, clock));
+    MeteredFile metered{chunkSize, file, {}, {}};
+    TRY_ASSIGN(metered.cost, frameCostOf(request, file, legs, clock));
     const ViewSettings now = settingsWith(request.view, candidateOf(request.view));
     TRY_ASSIGN(auto planet,
-               planet::Planet::open(bake.file, pagingSettingsOf(now, false, planet::PagingTime::Simulated)));
+               planet::Planet::open(file, pagingSettingsOf(now, false, planet::PagingTime::Simulated)));
     metered.meter = std::make_unique<SuggestMeter>(std::move(planet), request.view, legs, metered.cost);
     return metered;
 }
@@ -258,6 +273,19 @@ Result<void> checkSamePlanet(const planet::ChunkFile& chunks, const fs::path& fi
     return planet::badInput(fmt::format(
         "{}: is not a bake of the same planet; expected the options for its source with which it was baked",
         file.string()));
+}
+
+Result<void> bakeMissing(const SuggestRequest& request, SuggestClock& clock) {
+    if (request.bakes.files.empty()) return {};
+    clock.enter(SuggestStage::Baking);
+    for (const SweptFile& file : request.bakes.files) {
+        clock.beginBake(file.chunkSize);
+        TRY(bakeSwept(request.bakes, file, request.sourceSettings, [&](const planet::BakeProgress& progress) {
+            return clock.goOn(static_cast<double>(progress.samplesDone) /
+                              static_cast<double>(std::max<std::uint64_t>(progress.samplesTotal, 1)));
+        }));
+    }
+    return {};
 }
 
 // The measurements of the search, and those of its whole candidates.
@@ -506,15 +534,17 @@ Result<SuggestOutcome> runSuggest(const SuggestRequest& request, const SuggestWa
     SuggestOutcome outcome;
     outcome.budget = request.budget;
     outcome.size = request.size;
-    outcome.hasRecordings = !request.recordings.empty();
-    std::vector<SuggestBake> bakes = request.bakes;
-    bakes.insert(bakes.begin(), {0, request.file});
+    outcome.hasRecordings = std::ranges::any_of(legs, &SuggestLeg::isRecorded);
+    TRY(bakeMissing(request, clock));
     std::vector<MeteredFile> files;
-    for (const SuggestBake& bake : bakes) {
-        TRY(checkSamePlanet(chunks, bake.file));
-        TRY_ASSIGN(MeteredFile metered, meteredFile(request, bake, legs, clock));
+    const auto add = [&](int chunkSize, const fs::path& file) -> Result<void> {
+        TRY(checkSamePlanet(chunks, file));
+        TRY_ASSIGN(MeteredFile metered, meteredFile(request, chunkSize, file, legs, clock));
         files.push_back(std::move(metered));
-    }
+        return {};
+    };
+    TRY(add(0, request.file));
+    for (const SweptFile& bake : request.bakes.files) TRY(add(bake.chunkSize, bake.chunkFile));
 
     // 3. Search.
     clock.enter(SuggestStage::Searching);

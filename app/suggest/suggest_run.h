@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/base/picture.h"
+#include "app/measure/sweep_files.h"
 #include "app/settings/camera_text.h"
 #include "app/settings/setting_difference.h"
 #include "app/settings/view_settings.h"
@@ -20,25 +21,24 @@
 #include "app/suggest/suggest_search.h"
 #include "app/suggest/suggest_vary.h"
 #include "planet/measure/atlas.h"
+#include "planet/source/height_source.h"
 #include "planet/sphere/view.h"
 
 namespace worldy {
 
-// A bake of the same source with another chunk size.
-struct SuggestBake {
-    int chunkSize = 33;  // vertices per side
-    std::filesystem::path file;
-};
-
 struct SuggestRequest {
-    std::filesystem::path file;        // the chunk file
-    std::vector<SuggestBake> bakes{};  // that may be suggested instead
+    std::filesystem::path file;  // the chunk file
+    // Bakes of the same source with other chunk sizes, which may be suggested instead. Those that are missing are baked.
+    SweptFiles bakes{};
+    planet::HeightSourceSettings sourceSettings{};  // of these bakes
     std::filesystem::path colourImage{};
     SuggestBudget budget;
     std::vector<std::filesystem::path> flights{};     // .toml or .flight: the path of the camera
     std::vector<std::filesystem::path> recordings{};  // .flight of this chunk file: its very views
-    std::optional<planet::AtlasGrid> survey{};        // viewpoints of the whole planet
-    double stepS = 1.0 / 30;                          // between frames of flights
+    // Flights that are recordings of this chunk file count among the recordings.
+    bool viewsOfRecordings = false;
+    std::optional<planet::AtlasGrid> survey{};  // viewpoints of the whole planet
+    double stepS = 1.0 / 30;                    // between frames of flights
     SuggestVary vary{};
     std::optional<FrameCost>
         cost{};  // of the target machine; unset: measured here if frame times have a budget
@@ -93,14 +93,14 @@ bool keepsSettings(const SuggestOutcome& outcome);
 // Returns whether the suggestion misses the budget by no less than the settings of now, as both were measured last. Pure.
 bool isNoBetter(const SuggestOutcome& outcome);
 
-enum class SuggestStage { Surveying, Timing, Searching, Verifying, Drawing };
+enum class SuggestStage { Surveying, Baking, Timing, Searching, Verifying, Drawing };
 struct SuggestProgress {
     SuggestStage stage = SuggestStage::Surveying;
     double share = 0;               // of the current measurement or stage, [0, 1]
     std::size_t measured = 0;       // candidates so far
     std::size_t ahead = 0;          // at most so many more, as far as is known
     std::optional<double> leftS{};  // of the search
-    SuggestCandidate candidate{};   // being measured
+    SuggestCandidate candidate{};   // being measured; while baking, only its chunk size counts
 };
 // Called several times per second by the thread that runs; progress must return true to go on.
 struct SuggestWatcher {

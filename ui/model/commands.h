@@ -416,7 +416,8 @@ using AtlasCommand = std::variant<OpenAtlas, StartAtlas, CancelAtlas, ResumeAtla
 struct StartSuggest {      // for the shown planet, in the background, from the current settings
     SuggestBudget budget;  // not empty
     std::vector<std::filesystem::path> flights{};
-    bool surveys = false;  // also measures viewpoints of the whole planet
+    bool surveys = false;           // also measures viewpoints of the whole planet
+    std::vector<int> chunkSizes{};  // that may be suggested instead of the planet's own
     SuggestVary vary{};
     PictureSize size{};
 };

@@ -16,6 +16,7 @@ struct SuggestView {
     std::string openPlanet{};                 // empty if none is open
     bool fitsPlanet = false;                  // that file is open
     SuggestBudget budget{};                   // of the trials
+    int chunkSize = 0;                        // of that planet, vertices per side; 0: no search yet
     std::span<const SuggestTrial> trials{};   // so far, or of the last search
     bool running = false;
     bool cancelling = false;

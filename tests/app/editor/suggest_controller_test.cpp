@@ -33,9 +33,24 @@ TEST(SuggestController, applyingChangesWhatTheSuggestionChoseAndNothingElse) {
     EXPECT_EQ(settingsToApply(now, outcome), wanted);
 
     const std::vector<planet::Region> regions = {{.name = "suggested places", .tauFactor = 2}};
-    outcome.regionsText = "regions";
-    outcome.settings.regions.list = std::make_shared<const std::vector<planet::Region>>(regions);
-    EXPECT_EQ(settingsToApply(now, outcome).regions.applied(), regions);
+    outcome.found.best.candidate.regions = regions;
+    const ViewSettings applied = settingsToApply(now, outcome);
+    EXPECT_EQ(applied.regions.applied(), regions);
+    EXPECT_EQ(settingsToApply(applied, outcome), applied);
+}
+
+TEST(SuggestController, applyingKeepsRegionsThatWereAddedWhileItSearched) {
+    const planet::Region suggested{.name = "suggested places", .tauFactor = 2};
+    const planet::Region added{.name = "peaks", .tauFactor = 0.5},
+        ofSameName{.name = suggested.name, .tauFactor = 3};
+    SuggestOutcome outcome;
+    outcome.found.best.candidate.plan = "places";
+    outcome.found.best.candidate.regions = {suggested};
+    ViewSettings now;
+    now.regions.list = std::make_shared<const std::vector<planet::Region>>(std::vector{added, ofSameName});
+    planet::Region renamed = suggested;
+    renamed.name = "suggested places 2";
+    EXPECT_EQ(settingsToApply(now, outcome).regions.all(), (std::vector{added, ofSameName, renamed}));
 }
 
 TEST(SuggestController, aResultNamesItsPlanetAsTheWindowDid) {
@@ -58,10 +73,9 @@ TEST(SuggestController, applyingKeepsRegionsThatAreSwitchedOff) {
     now.regions.file = "planet.regions.toml";
     const SuggestCandidate candidate{.regions = {suggested}};
     SuggestOutcome outcome;
-    outcome.regionsText = "regions";
+    outcome.found.best.candidate = candidate;
     for (const bool areOn : {true, false}) {
         now.regions.on = areOn;
-        outcome.settings = settingsWith(now, candidate);
         const RegionSettings applied = settingsToApply(now, outcome).regions;
         EXPECT_TRUE(applied.on);
         EXPECT_EQ(applied.all(), (std::vector{areOn ? mine : mineOff, offAlready, suggested}));

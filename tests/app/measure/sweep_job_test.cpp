@@ -37,6 +37,10 @@ protected:
         return request;
     }
 
+    void openChunks(const SweepController& controller, int chunkSize, Session& session) {
+        openSwept(controller.swept, controller.sourceSettings, chunkSize, session, settings_, log_);
+    }
+
     SweepPlan planOver(const std::filesystem::path& chunkFile, int chunkSize) const {
         SweepPlan plan;
         plan.files = {{chunkSize, chunkFile, false, {}}};
@@ -207,17 +211,17 @@ TEST_F(Sweeping, BakesOtherChunkSizesIntoTheCacheAndOpensThemAtOnce) {
     ASSERT_TRUE(usual);
     EXPECT_FALSE(usual->needsBake);
 
-    openSweptChunks(controller, 17, session, settings_, log_);
+    openChunks(controller, 17, session);
     EXPECT_FALSE(session.bake);
     EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);
     EXPECT_TRUE(session.previous);
     EXPECT_TRUE(bakeViewOf(session).canBake);
-    openSweptChunks(controller, 33, session, settings_, log_);
+    openChunks(controller, 33, session);
     EXPECT_FALSE(session.bake);
     EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 33);
     // A bake that is gone is baked again.
     std::filesystem::remove(usual->chunkFile);
-    openSweptChunks(controller, 17, session, settings_, log_);
+    openChunks(controller, 17, session);
     EXPECT_TRUE(session.bake);
     ASSERT_TRUE(advanceUntilQuiet(session));
     EXPECT_EQ(planet::chunkSize(shownScene(session)->planet->tree().shape), 17);

@@ -150,7 +150,7 @@ TEST_F(RestoredResults, areShownAndKeptAgain) {
     restoreResults(flight_, kept, log_);
     ASSERT_TRUE(sweep_.table && flight_.last);
     EXPECT_EQ(sweep_.table->points.size(), 2u);
-    EXPECT_EQ(sweep_.files.at(0).chunkSize, 65);
+    EXPECT_EQ(sweep_.swept.files.at(0).chunkSize, 65);
     EXPECT_EQ(sweep_.suggestions.size(), 1u);
     EXPECT_EQ(flight_.name, "andes, 12 sample frames.");
     EXPECT_EQ(sweep_.problem + flight_.problem, "");

@@ -22,6 +22,7 @@
 #include "app/suggest/suggest_plans.h"
 #include "app/suggest/suggest_report.h"
 #include "planet/bake/bake.h"
+#include "planet/format/chunk_file.h"
 #include "planet/measure/true_error.h"
 #include "planet/paging/finest_heights.h"
 #include "planet/planet.h"
@@ -215,12 +216,55 @@ TEST_F(SuggestPlanet, aRecordingIsMeasuredWithItsOwnViews) {
     EXPECT_EQ(outcome.frames, std::vector<std::size_t>{40});
     for (const SuggestWorst& worst : outcome.measured.worst[1]) EXPECT_EQ(worst.view, views[worst.frame]);
 
+    // As a flight, it is measured along its path, or with its views if the request says so.
+    SuggestRequest flown = requestOf("10 M triangles");
+    flown.flights = {file};
+    EXPECT_NE(suggest(flown).frames, std::vector<std::size_t>{40});
+    flown.viewsOfRecordings = true;
+    const SuggestOutcome asRecorded = suggest(flown);
+    EXPECT_EQ(asRecorded.legs, std::vector<std::string>{"Recorded (as recorded)"});
+    EXPECT_TRUE(asRecorded.hasRecordings);
+    EXPECT_EQ(known(asRecorded.measured.figures), known(outcome.measured.figures));
+
     const auto other = planet::openHeightSource("noise:fbm,seed=7", {});
     request.file = folder_->path() / "other.chk";
     ASSERT_TRUE(planet::bake(*other, {.faceSize = 129, .chunkSize = 17, .radiusM = 1e6}, request.file));
     const auto refused = runSuggest(request, patient());
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, HasSubstr("recorded.flight"));
+    flown.file = request.file;
+    const SuggestOutcome onOther = suggest(flown);
+    EXPECT_EQ(onOther.legs, std::vector<std::string>{"Recorded"});
+    EXPECT_FALSE(onOther.hasRecordings);
+}
+
+TEST_F(SuggestPlanet, otherChunkSizesAreBakedAndMeasured) {
+    SuggestRequest request = requestOf("8 k triangles");
+    request.vary = {.metric = false, .morph = false, .memory = false, .regions = false};
+    const std::filesystem::path other = folder_->path() / "other chunks.chk";
+    request.bakes.source = "noise:fbm,seed=6,gain=0.7";
+    request.bakes.files = {{33, other, true, {.faceSize = 257, .chunkSize = 33, .radiusM = 1e6}}};
+
+    // A search that is cancelled while it bakes leaves no file.
+    const auto cancelled = runSuggest(request, {.progress = [](const SuggestProgress& progress) {
+                                          return progress.stage != SuggestStage::Baking;
+                                      }});
+    ASSERT_FALSE(cancelled);
+    EXPECT_EQ(cancelled.error().kind, planet::ErrorKind::Cancelled);
+    EXPECT_FALSE(std::filesystem::exists(other));
+
+    int baked = 0;
+    const auto outcome = runSuggest(request, {.progress = [&](const SuggestProgress& progress) {
+                                        if (progress.stage == SuggestStage::Baking)
+                                            baked = progress.candidate.chunkSize;
+                                        return true;
+                                    }});
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(baked, 33);
+    EXPECT_EQ(planet::chunkSize(planet::ChunkFile::open(other)->info().shape), 33);
+    EXPECT_TRUE(std::ranges::any_of(
+        outcome->found.trials, [](const SuggestTrial& trial) { return trial.candidate.chunkSize == 33; }));
+    EXPECT_EQ(outcome->file, outcome->found.best.candidate.chunkSize == 33 ? other : chunkFile());
 }
 
 TEST_F(SuggestPlanet, viewpointsOfTheWholePlanetMustAllBeWithinTheBudget) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <glm/trigonometric.hpp>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +20,9 @@
 #include "app/suggest/suggest_budget.h"
 #include "app/suggest/suggest_report.h"
 #include "app/suggest/suggest_search.h"
+#include "planet/bake/bake_settings.h"
 #include "planet/base/result.h"
+#include "planet/planet.h"
 #include "ui/kit/columns.h"
 #include "ui/kit/front_chart.h"
 #include "ui/kit/item_map.h"
@@ -63,6 +66,11 @@ constexpr std::array<BudgetField, suggestLimitCount> budgetFields = {{
      "Bound of the distance between the drawn surface and the finest data on screen, morphs included."},
 }};
 
+// The label beside it says what is counted.
+std::string suggestCellText(SuggestLimit limit, double value) {
+    return limit == SuggestLimit::Triangles ? countText(value) : limitText(limit, value);
+}
+
 // Edits a budget as text with its unit. A text that cannot be read stays, and the budget stays as it was.
 void budgetEdit(std::size_t i, SuggestPanelState& state) {
     const SuggestLimit limit = suggestLimits[i];
@@ -70,7 +78,7 @@ void budgetEdit(std::size_t i, SuggestPanelState& state) {
     SuggestBudgetEdit& edit = state.edits[i];
     if (!edit.isOpen) {
         edit.text.fill('\0');
-        limitText(limit, state.limits[i] * scale).copy(edit.text.data(), edit.text.size() - 1);
+        suggestCellText(limit, state.limits[i] * scale).copy(edit.text.data(), edit.text.size() - 1);
     }
     if (ImGui::InputText("##limit", edit.text.data(), edit.text.size(), ImGuiInputTextFlags_AutoSelectAll)) {
         edit.isOpen = true;
@@ -131,14 +139,47 @@ void flightControls(const std::vector<std::filesystem::path>& flights, SuggestPa
                 state.flights.erase(file.string());
         }
         noteItem(fmt::format("Flight {}", name));
-        tooltip("Measures every frame of this flight, 30 in a second.");
+        tooltip(
+            file.extension() == ".flight"
+                ? "Measures the very views of this recording if it is of the open chunk file, and otherwise "
+                  "30 frames in a second along its path."
+                : "Measures every frame of this flight, 30 in a second.");
     }
     ImGui::Checkbox("whole planet", &state.surveys);
     noteItem("whole planet");
     tooltip("Measures 300 viewpoints of the whole planet, 200 m, 5 km and 50 km up, where it differs most.");
 }
 
-void varyControls(SuggestPanelState& state) {
+// Returns the next smaller and the next larger chunk size, as far as the faces allow.
+std::vector<int> otherChunkSizes(const planet::PlanetShape& shape) {
+    const auto own = std::ranges::find(planet::chunkSizes, planet::chunkSize(shape));
+    std::vector<int> others;
+    if (own != planet::chunkSizes.begin()) others.push_back(*std::prev(own));
+    if (std::next(own) != planet::chunkSizes.end() && *std::next(own) - 1 <= planet::faceCells(shape))
+        others.push_back(*std::next(own));
+    return others;
+}
+
+void chunkSizeControl(const EditorView& view, SuggestPanelState& state) {
+    const char* const label = "chunk size";
+    sameLineIfRoom(checkboxWidth(label));
+    const bool canBake = view.planet && view.bake.canBake;
+    const char* const problem =
+        "The source of this file is unknown or missing, so its chunk size cannot vary. Open the source "
+        "itself.";
+    bool on = state.variesChunkSize && canBake;
+    beginGrey(!canBake, problem);
+    if (ImGui::Checkbox(label, &on)) state.variesChunkSize = on;
+    noteItem(fmt::format("Vary {}", label));
+    endGrey();
+    if (!canBake) return tooltip(problem);
+    tooltip(fmt::format("Also measures chunks of {} vertices a side. They are baked into the cache first, "
+                        "without colours, unless they are there.",
+                        fmt::join(otherChunkSizes(view.planet->tree().shape), " and "))
+                .c_str());
+}
+
+void varyControls(const EditorView& view, SuggestPanelState& state) {
     const auto box = [](const char* label, bool& value, const char* explanation) {
         ImGui::Checkbox(label, &value);
         noteItem(fmt::format("Vary {}", label));
@@ -151,6 +192,7 @@ void varyControls(SuggestPanelState& state) {
     box("regions", state.vary.regions,
         "Regions may give the places, or the band of ground heights, that cost most a larger tolerance of "
         "their own.");
+    chunkSizeControl(view, state);
 }
 
 SuggestBudget budgetOf(const SuggestPanelState& state) {
@@ -167,6 +209,8 @@ const char* suggestStageText(SuggestStage stage) {
     switch (stage) {
         case SuggestStage::Surveying:
             return "Surveying the planet";
+        case SuggestStage::Baking:
+            return "Baking other chunk sizes";
         case SuggestStage::Timing:
             return "Timing frames";
         case SuggestStage::Searching:
@@ -190,6 +234,9 @@ void suggestProgress(const SuggestView& suggest, Commands& commands) {
                                   : p.share;
     usageBar(std::min(share, 1.0), suggestStageText(p.stage));
     if (!suggest.planet.empty()) wrappedText(fmt::format("For {}.", suggest.planet), palette().dim);
+    if (p.stage == SuggestStage::Baking)
+        wrappedText(fmt::format("Chunks of {} are baked into the cache.", p.candidate.chunkSize),
+                    palette().dim);
     if (!searches) return;
     std::string text = fmt::format("{} measured, at most {} more: {}", p.measured, p.ahead,
                                    candidateText(p.candidate, tauSymbol()));
@@ -217,6 +264,8 @@ void startControl(const EditorView& view, const SuggestPanelState& state,
                "Searches settings that meet the budgets, in the background, from the current settings.")) {
         start.surveys = state.surveys;
         start.vary = state.vary;
+        if (state.variesChunkSize && view.bake.canBake)
+            start.chunkSizes = otherChunkSizes(view.planet->tree().shape);
         commands.push_back(start);
     }
     endGrey();
@@ -243,8 +292,10 @@ void suggestRequest(const EditorView& view, SuggestPanelState& state, Commands& 
         startControl(view, state, flights, commands);
     if (!suggest.problem.empty()) wrappedText(suggest.problem, palette().warning);
     budgetControls(state);
+    wrappedText("Measured over:", palette().dim);
     flightControls(flights, state);
-    varyControls(state);
+    wrappedText(fmt::format("May vary besides {}:", tauSymbol()), palette().dim);
+    varyControls(view, state);
 }
 
 // The candidates.
@@ -319,6 +370,7 @@ constexpr std::array suggestColumns = {
     TableColumn{"\u03c4", 0.6f, "Tolerance, pixels.", "0.123"},
     TableColumn{"Metric", 0.8f, "Metric of errors.", "additive"},
     TableColumn{"Morph", 0.6f, "Morph range, a share of \u03c4.", "0.15"},
+    TableColumn{"Chunks", 0.6f, "Vertices along a side of a chunk.", "129"},
     TableColumn{"Regions", 0.8f, "Regions with a larger \u03c4, and its factor.", "heights x 1.7"},
     TableColumn{"Frames", 0.7f, "All frames, or a sample of them.", "sample"},
     TableColumn{"Triangles", 0.9f, "99.9th percentile of the frames.", "99.9 M"},
@@ -331,6 +383,9 @@ void suggestTable(const SuggestView& suggest, SuggestPanelState& state) {
     if (!beginWideTable("candidates", suggestColumns, 1)) return;
     const auto trialOf = [&](std::size_t row) -> const SuggestTrial& { return suggest.trials[row]; };
     const auto use = [&](const SuggestTrial& trial) { return mostUse(suggest.budget, trial.figures.values); };
+    const auto chunkSizeOf = [&](const SuggestTrial& trial) {
+        return trial.candidate.chunkSize > 0 ? trial.candidate.chunkSize : suggest.chunkSize;
+    };
     const auto key = [&](std::size_t row, std::size_t column) -> SortKey {
         const SuggestTrial& trial = trialOf(row);
         switch (column) {
@@ -341,12 +396,14 @@ void suggestTable(const SuggestView& suggest, SuggestPanelState& state) {
             case 2:
                 return trial.candidate.morphRange;
             case 3:
-                return trial.candidate.plan;
+                return static_cast<double>(chunkSizeOf(trial));
             case 4:
-                return trial.scope == SuggestScope::Whole ? 1.0 : 0.0;
+                return trial.candidate.plan;
             case 5:
-                return figureOf(trial, SuggestLimit::Triangles);
+                return trial.scope == SuggestScope::Whole ? 1.0 : 0.0;
             case 6:
+                return figureOf(trial, SuggestLimit::Triangles);
+            case 7:
                 return figureOf(trial, SuggestLimit::ErrorPx);
             default:
                 return use(trial);
@@ -362,6 +419,7 @@ void suggestTable(const SuggestView& suggest, SuggestPanelState& state) {
         noteItem(fmt::format("Row {}", row));
         cell(std::string(metricName(trial.candidate.metric)));
         cell(fmt::format("{:g}", trial.candidate.morphRange));
+        cell(fmt::format("{}", chunkSizeOf(trial)));
         cell(trial.candidate.regions.empty()
                  ? std::string("-")
                  : fmt::format("{} x {:g}", trial.candidate.plan,
@@ -376,6 +434,7 @@ void suggestTable(const SuggestView& suggest, SuggestPanelState& state) {
         {"tau_px", [](const T& t) { return t.candidate.tauPx; }},
         {"metric", [](const T& t) { return metricName(t.candidate.metric); }},
         {"morph_range", [](const T& t) { return t.candidate.morphRange; }},
+        {"chunk_size", [&chunkSizeOf](const T& t) { return chunkSizeOf(t); }},
         {"regions", [](const T& t) { return std::string_view(t.candidate.plan); }},
         {"all_frames", [](const T& t) { return t.scope == SuggestScope::Whole; }},
         {"triangles", [](const T& t) { return figureOf(t, SuggestLimit::Triangles); }},
@@ -392,11 +451,6 @@ constexpr std::array suggestBudgetColumns = {TableColumn{"Budget", 1, nullptr, "
                                              TableColumn{"Before", 1, nullptr, "1.234 MiB", false},
                                              TableColumn{"Suggested", 1, nullptr, "1.234 MiB", false},
                                              TableColumn{"Verdict", 1, nullptr, "exceeded by 123 %", false}};
-
-// The first column says what is counted.
-std::string suggestCellText(SuggestLimit limit, double value) {
-    return limit == SuggestLimit::Triangles ? countText(value) : limitText(limit, value);
-}
 
 void suggestBudgetTable(const SuggestOutcome& outcome) {
     const std::vector<SuggestRow> rows = rowsOf(outcome);
@@ -427,6 +481,7 @@ void suggestResult(const EditorView& view, Commands& commands) {
                                           : "The suggested settings will be here.");
     const SuggestOutcome& outcome = *suggest.outcome;
     const bool isLocked = view.recording.replay.has_value();
+    const int otherChunks = outcome.found.best.candidate.chunkSize;
     if (!suggest.fitsPlanet)
         wrappedText(suggest.openPlanet.empty()
                         ? fmt::format("It is for {}, which is not open.", suggest.planet)
@@ -438,8 +493,14 @@ void suggestResult(const EditorView& view, Commands& commands) {
               : outcome.isMet       ? "The settings of now already meet the budget."
                                     : "Nothing that was found is better than the settings of now.");
     if (button("Apply",
-               "Sets the tolerance, the metric, the morph range, the memory budget and the suggested "
-               "regions, and turns the governor off. Undo reverts this."))
+               otherChunks > 0
+                   ? fmt::format("Sets the tolerance, the metric, the morph range, the memory budget and the "
+                                 "suggested regions, turns the governor off, and opens the chunks of {} that "
+                                 "were baked for the search. Undo reverts the settings.",
+                                 otherChunks)
+                         .c_str()
+                   : "Sets the tolerance, the metric, the morph range, the memory budget and the suggested "
+                     "regions, and turns the governor off. Undo reverts this."))
         commands.push_back(ApplySuggest{});
     endGrey();
     sameLineForButton("Save report");

@@ -31,6 +31,7 @@ struct SuggestPanelState {
     bool hasChosen = false;         // false: the first flight is chosen as soon as there is one
     bool surveys = false;
     SuggestVary vary{};
+    bool variesChunkSize = false;
     std::optional<std::size_t> selected;  // index of a trial
 };
 

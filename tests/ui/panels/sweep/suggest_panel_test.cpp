@@ -92,6 +92,21 @@ TEST_F(SuggestPanel, withoutABudgetAPlaceOrAPlanetNothingIsSearched) {
     EXPECT_TRUE(frame().empty());
 }
 
+TEST_F(SuggestPanel, triesNeighbouringChunkSizesOnlyIfTheSourceIsThere) {
+    clicked("Vary chunk size");
+    Commands commands = clicked("Suggest");
+    ASSERT_EQ(commands.size(), 1u);
+    EXPECT_TRUE(commands[0].as<StartSuggest>()->chunkSizes.empty());
+    view_.bake.canBake = true;
+    clicked("Vary chunk size");
+    commands = clicked("Suggest");
+    ASSERT_EQ(commands.size(), 1u);
+    const int own = planet::chunkSize(planet_->tree().shape);
+    const std::vector<int>& others = commands[0].as<StartSuggest>()->chunkSizes;
+    EXPECT_FALSE(others.empty());
+    for (const int size : others) EXPECT_TRUE(size - 1 == 2 * (own - 1) || 2 * (size - 1) == own - 1) << size;
+}
+
 TEST_F(SuggestPanel, aRunningSearchIsCancelled) {
     view_.instruments.suggest.running = true;
     SuggestProgress& progress = view_.instruments.suggest.progress;
