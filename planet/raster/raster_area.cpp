@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -57,6 +58,16 @@ std::vector<SurveyBlock> blocksOf(const RasterMosaic& mosaic) {
         }
     }
     return blocks;
+}
+
+// Returns the indices of blocks in an order in which threads do not wait for each other: first those that read whole rows.
+std::vector<std::size_t> readingOrderOf(const std::vector<SurveyBlock>& blocks, const RasterMosaic& mosaic) {
+    std::vector<std::size_t> order(blocks.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
+        return blocks[i].x == 0 && mosaic.tiles()[blocks[i].tile].raster->readsWholeRows();
+    });
+    return order;
 }
 
 // Positions on the grid, and what they become on the planet.
@@ -312,10 +323,12 @@ struct PartSurvey {
 // Reads the blocks of a part of so many.
 PartSurvey surveyPart(const RasterArea& area, const SurveyShare& part, const std::stop_token& stop) {
     const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
+    const std::vector<std::size_t> order = readingOrderOf(blocks, area.mosaic);
     PartSurvey survey;
     std::size_t mostUnsorted = std::size_t{1} << 16;
     std::mutex mutex;
-    parallelFor(blocks.size(), [&](std::size_t i) {
+    parallelFor(order.size(), [&](std::size_t turn) {
+        const std::size_t i = order[turn];
         if (!part.reads(i) || stop.stop_requested()) return;
         const auto& [tileIndex, x, y] = blocks[i];
         const RasterMosaic::Tile& tile = area.mosaic.tiles()[tileIndex];

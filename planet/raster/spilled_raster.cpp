@@ -88,6 +88,8 @@ public:
         return raster_->isEmpty(0, blockY * layout_.blockHeight / bandRows_);
     }
 
+    bool readsWholeRows() const override { return true; }
+
     std::optional<std::uint64_t> samplesRead() const override { return samplesRead_; }
 
 private:

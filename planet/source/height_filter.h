@@ -32,13 +32,17 @@ PLANET_ALWAYS_INLINE float sumOfLanes(Float4 v) {
     return (v[0] + v[2]) + (v[1] + v[3]);
 }
 
-// Returns the four weights at a fraction t, [0, 1], between the second and the third tap.
+// The weights of four taps at a fraction t, [0, 1], between the second and the third one:
+// ((cubic t + square) t + linear) t + constant.
+struct CatmullRomWeights {
+    static constexpr Float4 cubic{-0.5f, 1.5f, -1.5f, 0.5f};
+    static constexpr Float4 square{1.0f, -2.5f, 2.0f, -0.5f};
+    static constexpr Float4 linear{-0.5f, 0.0f, 0.5f, 0.0f};
+    static constexpr Float4 constant{0.0f, 1.0f, 0.0f, 0.0f};
+};
 PLANET_ALWAYS_INLINE Float4 catmullRomWeights(float t) {
-    constexpr Float4 cubic{-0.5f, 1.5f, -1.5f, 0.5f};
-    constexpr Float4 square{1.0f, -2.5f, 2.0f, -0.5f};
-    constexpr Float4 linear{-0.5f, 0.0f, 0.5f, 0.0f};
-    constexpr Float4 constant{0.0f, 1.0f, 0.0f, 0.0f};
-    return ((cubic * t + square) * t + linear) * t + constant;
+    using W = CatmullRomWeights;
+    return ((W::cubic * t + W::square) * t + W::linear) * t + W::constant;
 }
 
 // Returns the weights at four distances from the sample.

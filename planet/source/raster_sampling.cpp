@@ -337,20 +337,37 @@ Result<void> fillPositions(const RasterMosaic& mosaic, const GridReduction& redu
     return {};
 }
 
+// Widens [least, most] to hold the values of the places without a height. Several are compared at once.
+PLANET_CPU_CLONES void widenTo(std::span<const double> values, std::span<const std::size_t> index,
+                               std::span<const float> heights, double& least, double& most) {
+    constexpr std::size_t lanes = 8;
+    std::array<double, lanes> low{}, high{};
+    low.fill(least);
+    high.fill(most);
+    std::size_t i = 0;
+    for (; i + lanes <= values.size(); i += lanes) {
+        for (std::size_t k = 0; k < lanes; ++k) {
+            const bool counts = std::isnan(heights[index[i + k]]);
+            const double value = values[i + k];
+            low[k] = counts && value < low[k] ? value : low[k];
+            high[k] = counts && value > high[k] ? value : high[k];
+        }
+    }
+    for (; i < values.size(); ++i) {
+        if (!std::isnan(heights[index[i]])) continue;
+        low[0] = std::min(low[0], values[i]);
+        high[0] = std::max(high[0], values[i]);
+    }
+    least = *std::ranges::min_element(low);
+    most = *std::ranges::max_element(high);
+}
+
 // Returns the samples that four by four taps around the places without a height lie on; empty if there is none.
 GridRect tapsAround(const PlacesOnGrid& onGrid, std::span<const float> heights) {
     constexpr double most = std::numeric_limits<double>::infinity();
-    double left = most;
-    double top = most;
-    double right = -most;
-    double bottom = -most;
-    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
-        if (!std::isnan(heights[onGrid.index[i]])) continue;
-        left = std::min(left, onGrid.column[i]);
-        top = std::min(top, onGrid.row[i]);
-        right = std::max(right, onGrid.column[i]);
-        bottom = std::max(bottom, onGrid.row[i]);
-    }
+    double left = most, top = most, right = -most, bottom = -most;
+    widenTo(onGrid.column, onGrid.index, heights, left, right);
+    widenTo(onGrid.row, onGrid.index, heights, top, bottom);
     if (left == most) return {};
     const GridRect first{firstTap(left, 1), firstTap(top, 1)};
     const int taps = tapCount(1);
@@ -358,23 +375,100 @@ GridRect tapsAround(const PlacesOnGrid& onGrid, std::span<const float> heights) 
             firstTap(bottom, 1) + taps - first.row};
 }
 
+// Four groups of four lanes. Passed by reference, because how it is passed by value depends on the processor.
+using Float16 = float __attribute__((vector_size(64)));
+
+PLANET_ALWAYS_INLINE void join(Float4 a, Float4 b, Float4 c, Float4 d, Float16& out) {
+    const auto first = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+    const auto second = __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7);
+    out = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+
+PLANET_ALWAYS_INLINE void joinTaps(const std::array<const float*, 4>& from, std::int64_t offset,
+                                   Float16& out) {
+    join(loadFloat4(from[0] + offset), loadFloat4(from[1] + offset), loadFloat4(from[2] + offset),
+         loadFloat4(from[3] + offset), out);
+}
+
+// Computes in each group the weights at one of four t.
+PLANET_ALWAYS_INLINE void weightsOfFour(const std::array<float, 4>& t, Float16& out) {
+    using W = CatmullRomWeights;
+    Float16 cubic, square, linear, constant;
+    join(W::cubic, W::cubic, W::cubic, W::cubic, cubic);
+    join(W::square, W::square, W::square, W::square, square);
+    join(W::linear, W::linear, W::linear, W::linear, linear);
+    join(W::constant, W::constant, W::constant, W::constant, constant);
+    Float16 each;
+    join(Float4{} + t[0], Float4{} + t[1], Float4{} + t[2], Float4{} + t[3], each);
+    out = ((cubic * each + square) * each + linear) * each + constant;
+}
+
+// Returns PositionFilter::fourByFour of four places from the i-th on, bit for bit.
+PLANET_ALWAYS_INLINE Float4 fourByFourOfFour(const RegionSamples& samples, const PlacesOnGrid& onGrid,
+                                             std::size_t i) {
+    std::array<const float*, 4> from{};
+    std::array<float, 4> column{}, row{};
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::int64_t firstColumn = firstTap(onGrid.column[i + k], 1);
+        const std::int64_t firstRow = firstTap(onGrid.row[i + k], 1);
+        from[k] = samples.at(firstColumn, firstRow);
+        column[k] = static_cast<float>(onGrid.column[i + k] - static_cast<double>(firstColumn)) - 1;
+        row[k] = static_cast<float>(onGrid.row[i + k] - static_cast<double>(firstRow)) - 1;
+    }
+    Float16 across, down, taps;
+    weightsOfFour(column, across);
+    weightsOfFour(row, down);
+    const std::int64_t stride = samples.rect.columns;
+    joinTaps(from, 0, taps);
+    Float16 sum = __builtin_shufflevector(down, down, 0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12) *
+                  (across * taps);
+    joinTaps(from, stride, taps);
+    sum += __builtin_shufflevector(down, down, 1, 1, 1, 1, 5, 5, 5, 5, 9, 9, 9, 9, 13, 13, 13, 13) *
+           (across * taps);
+    joinTaps(from, 2 * stride, taps);
+    sum += __builtin_shufflevector(down, down, 2, 2, 2, 2, 6, 6, 6, 6, 10, 10, 10, 10, 14, 14, 14, 14) *
+           (across * taps);
+    joinTaps(from, 3 * stride, taps);
+    sum += __builtin_shufflevector(down, down, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15) *
+           (across * taps);
+    // As in sumOfLanes, in each group.
+    sum += __builtin_shufflevector(sum, sum, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
+    return Float4{sum[0] + sum[1], sum[4] + sum[5], sum[8] + sum[9], sum[12] + sum[13]};
+}
+
 // Filters the places without a height from four by four samples, all of which lie in the region.
 PLANET_CPU_CLONES void filterUnstretched(const GridRect& bounds, const RegionSamples& samples,
                                          const PlacesOnGrid& onGrid, std::span<float> heights) {
     PositionFilter filter;
-    for (std::size_t i = 0; i < onGrid.index.size(); ++i) {
-        float& height = heights[onGrid.index[i]];
-        if (!std::isnan(height)) continue;
+    // The height is NaN where a sample is missing. If the nearest one is not, the others are left out.
+    const auto complete = [&](float& height, std::size_t i) {
         const double column = onGrid.column[i];
         const double row = onGrid.row[i];
         const GridCell nearest = nearestIn(bounds, column, row);
-        if (std::isnan(*samples.at(nearest.column, nearest.row))) continue;
-        const std::int64_t firstColumn = firstTap(column, 1);
-        const std::int64_t firstRow = firstTap(row, 1);
-        height = PositionFilter::fourByFour(samples, column, row, firstColumn, firstRow);
-        if (!std::isnan(height)) continue;
+        if (std::isnan(*samples.at(nearest.column, nearest.row))) return;
         height = filter.filtered(
-            samples, {.column = column, .row = row, .firstColumn = firstColumn, .firstRow = firstRow});
+            samples,
+            {.column = column, .row = row, .firstColumn = firstTap(column, 1), .firstRow = firstTap(row, 1)});
+    };
+    const std::size_t count = onGrid.index.size();
+    for (std::size_t i = 0; i < count;) {
+        const auto hasHeight = [&](std::size_t k) { return !std::isnan(heights[onGrid.index[k]]); };
+        if (i + 4 <= count && !hasHeight(i) && !hasHeight(i + 1) && !hasHeight(i + 2) && !hasHeight(i + 3)) {
+            const Float4 four = fourByFourOfFour(samples, onGrid, i);
+            for (std::size_t k = 0; k < 4; ++k, ++i) {
+                float& height = heights[onGrid.index[i]] = four[k];
+                if (std::isnan(height)) complete(height, i);
+            }
+            continue;
+        }
+        if (!hasHeight(i)) {
+            float& height = heights[onGrid.index[i]] =
+                PositionFilter::fourByFour(samples, onGrid.column[i], onGrid.row[i],
+                                           firstTap(onGrid.column[i], 1), firstTap(onGrid.row[i], 1));
+            if (std::isnan(height)) complete(height, i);
+        }
+        ++i;
     }
 }
 

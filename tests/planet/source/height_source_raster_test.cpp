@@ -461,6 +461,28 @@ TEST(RasterSource, TilesOfAGridHaveTheBitsOfItsFace) {
     }
 }
 
+// Several places are filtered at once, and those that are left over one by one.
+TEST(RasterSource, PiecesHaveTheBitsOfTheirPlacesOneByOne) {
+    const TemporaryFolder folder;
+    writeRaster(folder / "utm.tif", gridAround(32632, 10, 46, 200, 200, 400), terrainAround(10, 46));
+    const HeightSource source = mustOpen(folder / "utm.tif");
+    const SampleTile middle = probeAt(10, 46, 1 << 15).tile;
+    for (const int columns : {1, 4, 7, 33}) {
+        const SampleTile piece{middle.face,     middle.faceCells, middle.firstColumn,
+                               middle.firstRow, columns,          3};
+        const std::vector<float> heights = sampled(source, piece);
+        std::vector<float> oneByOne;
+        for (int row = 0; row < piece.rows; ++row) {
+            for (int column = 0; column < piece.columns; ++column) {
+                oneByOne.push_back(sampled(source, {piece.face, piece.faceCells, piece.firstColumn + column,
+                                                    piece.firstRow + row, 1, 1})[0]);
+            }
+        }
+        EXPECT_EQ(heights, oneByOne) << columns;
+        EXPECT_NE(std::ranges::count(heights, 0.0f), static_cast<std::ptrdiff_t>(heights.size()));
+    }
+}
+
 TEST(RasterSource, EveryFormatGivesTheSameHeights) {
     const TemporaryFolder folder;
     const SampleGrid grid = {4326, 121, 121, 10, 46, 1.0 / 120};
