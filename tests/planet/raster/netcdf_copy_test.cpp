@@ -11,6 +11,7 @@
 
 #include "tests/planet/source/height_source_fixture.h"
 #include "tests/planet/source/raster_fixture.h"
+#include "tests/support/sanitized.h"
 
 namespace planet {
 namespace {
@@ -40,8 +41,12 @@ constexpr char tooManyDimensions[] = "CDF\x01\0\0\0\0\0\0\0\x0a\x7f\xff\xff\xff\
 
 TEST_F(NetcdfFiles, aHeaderThatCrashesItsReaderIsRefused) {
     writeBytes(folder / "hostile.nc", std::string(tooManyDimensions, sizeof(tooManyDimensions) - 1));
-    EXPECT_THAT(errorOf(folder / "hostile.nc"),
-                AllOf(StartsWith((folder / "hostile.nc").string()), HasSubstr("is not a readable raster")));
+    const std::string error = errorOf(folder / "hostile.nc");
+    EXPECT_THAT(error, StartsWith((folder / "hostile.nc").string()));
+    // The address sanitizer ends the reader with words of its own.
+    if (!tests::sanitized) {
+        EXPECT_THAT(error, HasSubstr("is not a readable raster"));
+    }
 }
 
 TEST_F(NetcdfFiles, aCrashOfTheReaderIsAnError) {
