@@ -195,8 +195,7 @@ void governFrame(SettingsController& controller, const FrameController& frames, 
 }
 
 ViewSettings ungoverned(const SettingsController& controller, ViewSettings view) {
-    if (controller.governing.ownTauPx) view.lod.tauPx = *controller.governing.ownTauPx;
-    return view;
+    return ungoverned(controller.governing, std::move(view));
 }
 
 void execute(SettingsController& controller, const ui::SettingsCommand& command, bool replaying,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/base/text.h"
 #include "app/scene/scene_settings.h"
@@ -61,6 +62,7 @@ planet::GovernorSample governorSampleOf(const FrameStats& frame, const planet::P
     sample.tauPx = frame.tauPx;
     sample.elapsedS = elapsedS;
     sample.exponent = planet::exponentOf(selection, frame.tauPx);
+    sample.merges = planet::mergeCurveOf(selection);
     const std::uint32_t drawn = std::max(frame.selection.drawn, 1u);
     sample.waitingShare = static_cast<double>(frame.selection.waiting) / drawn;
     return sample;
@@ -69,12 +71,14 @@ planet::GovernorSample governorSampleOf(const FrameStats& frame, const planet::P
 void governTau(Governing& governing, const FrameStats* frame, const planet::Planet& planet, double elapsedS,
                ViewSettings& settings) {
     if (!settings.budget.isOn()) {
-        if (governing.ownTauPx) settings.lod.tauPx = *governing.ownTauPx;
+        settings = ungoverned(governing, std::move(settings));
         governing = {};
         return;
     }
     if (settings.lod.tauPx != governing.tauPx) governing.ownTauPx = settings.lod.tauPx;
     governing.tauPx = settings.lod.tauPx;
+    if (settings.lod.fadeS != governing.fadeS) governing.ownFadeS = settings.lod.fadeS;
+    governing.fadeS = settings.lod.fadeS = governing.ownFadeS.value_or(settings.lod.fadeS);
     governing.use.isOn = true;
     if (!frame || frame->tauPx <= 0) return;
     const std::uint64_t bytesRead = planet.paging().bytesRead();
@@ -87,11 +91,23 @@ void governTau(Governing& governing, const FrameStats* frame, const planet::Plan
     governing.state = governed.state;
     governing.use = {true, governed.governs, governed.binds, governed.limit, governed.use, governed.uses};
     governing.tauPx = settings.lod.tauPx = std::clamp(governed.tauPx, smallestTauPx, largestTauPx);
+    if (settings.lod.morph && governed.governs) governing.fadeS = settings.lod.fadeS = governed.fadeS;
     governing.stillS = settings.lod.tauPx == frame->tauPx ? governing.stillS + elapsedS : 0;
 }
 
 void forgetCosts(Governing& governing) {
-    governing = {.state = {}, .ownTauPx = governing.ownTauPx, .tauPx = governing.tauPx, .use = {}};
+    governing = {.state = {},
+                 .ownTauPx = governing.ownTauPx,
+                 .tauPx = governing.tauPx,
+                 .ownFadeS = governing.ownFadeS,
+                 .fadeS = governing.fadeS,
+                 .use = {}};
+}
+
+ViewSettings ungoverned(const Governing& governing, ViewSettings settings) {
+    if (governing.ownTauPx) settings.lod.tauPx = *governing.ownTauPx;
+    if (governing.ownFadeS) settings.lod.fadeS = *governing.ownFadeS;
+    return settings;
 }
 
 bool isSettling(const Governing& governing) {

@@ -18,6 +18,8 @@ struct Governing {
     planet::GovernorState state;
     std::optional<double> ownTauPx;  // the user's τ, which returns when no budget is on; unset while none is
     double tauPx = 0;                // chosen for the last frame; another one in the settings is the user's
+    std::optional<double> ownFadeS;  // likewise the time of a fade, which is shorter after a large rise of τ
+    double fadeS = 0;
     BudgetUse use;
     std::uint64_t bytesRead = 0;  // since the planet was opened, at the last sample
     bool knowsBytes = false;
@@ -31,12 +33,14 @@ planet::GovernorSettings governorSettingsOf(const ViewSettings& settings);
 planet::GovernorSample governorSampleOf(const FrameStats& frame, const planet::Planet& planet,
                                         std::uint64_t bytesRead, double elapsedS);
 
-// Sets settings.lod.tauPx for the next frame if a budget is on, and returns the user's τ if none is any more. frame: the
-// last one; null before the first. elapsedS: by which the next frame advances.
+// Sets τ and the time of a fade in settings.lod for the next frame if a budget is on, and returns those of the user if none is
+// any more. frame: the last one; null before the first. elapsedS: by which the next frame advances.
 void governTau(Governing& governing, const FrameStats* frame, const planet::Planet& planet, double elapsedS,
                ViewSettings& settings);
-// Forgets the costs, for another planet, but not the user's τ.
+// Forgets the costs, for another planet, but not what the user has set.
 void forgetCosts(Governing& governing);
+// Returns settings with τ and the time of a fade as the user has set them.
+ViewSettings ungoverned(const Governing& governing, ViewSettings settings);
 
 // τ may still change although nothing else does.
 bool isSettling(const Governing& governing);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace planet {
 
@@ -25,6 +26,7 @@ constexpr double priorWeight = 0.01;  // of the expected elasticity, as a sum of
 // large step, and the next one could begin only when this one had been measured.
 constexpr double expectedAtRise = 0.9;
 constexpr double leastChange = 0.05;  // of ln triangles that tells elasticity
+constexpr double ownChange = 0.15;    // of the ln of a time
 // A larger change counts as one of this size, because it tells the mean elasticity between two far ends, and not that
 // near the budget.
 constexpr double mostChange = 0.1;
@@ -61,7 +63,7 @@ struct Rules {
     double lnCeiling, lnMiddle, lnFloor;
     double exponent;
     double risePerS, fallPerS;
-    double fadeS, morphRange, backlash;
+    double fadeS, mostFadeSpeed, morphRange, backlash;
     std::size_t gpuFramesLate;
 };
 
@@ -80,6 +82,7 @@ Rules rulesOf(const GovernorSettings& s) {
     rules.risePerS = within(s.risePerS, usual.risePerS, 0, 100);
     rules.fallPerS = within(s.fallPerS, usual.fallPerS, 1e-3, 100);
     rules.fadeS = within(s.fadeS, usual.fadeS, 0, 10);
+    rules.mostFadeSpeed = std::max(rules.fadeS / within(s.leastFadeS, usual.leastFadeS, 1e-3, 10), 1.0);
     rules.morphRange = within(s.morphRange, usual.morphRange, 0.01, 4);
     rules.backlash = -std::log(1 - within(s.lodHysteresis, usual.lodHysteresis, 0, 0.9));
     rules.gpuFramesLate = static_cast<std::size_t>(std::clamp(s.gpuFramesLate, 0, 6));
@@ -100,6 +103,8 @@ void followFade(GovernorState& state, double x, double elapsedS, const Rules& ru
     const double camera = (x - state.mergingLnTau) * newestShare(elapsedS, backlashS);
     const double merging =
         state.frames == 0 ? x : std::clamp(state.mergingLnTau + camera, x - rules.backlash, x);
+    // Parts are counted in the time of a fade that does not catch up.
+    const double fadedS = elapsedS * state.fadeSpeed;
     const double partS = rules.fadeS / static_cast<double>(GovernorState::fadeParts - 1);
     if (state.frames == 0 || partS <= 0) {
         state.parts.fill({merging, merging});
@@ -107,7 +112,7 @@ void followFade(GovernorState& state, double x, double elapsedS, const Rules& ru
         state.partS = 0;
         return;
     }
-    state.partS = std::min(state.partS + elapsedS, 2 * rules.fadeS);
+    state.partS = std::min(state.partS + fadedS, 2 * rules.fadeS);
     while (state.partS >= partS) {
         std::shift_right(state.parts.begin(), state.parts.end(), 1);
         state.parts[0] = {state.mergingLnTau, state.shownLnTau};
@@ -119,7 +124,7 @@ void followFade(GovernorState& state, double x, double elapsedS, const Rules& ru
     };
     GovernorState::Part least = state.parts[0] = lower(state.parts[0], {merging, merging});
     for (const GovernorState::Part& part : state.parts) least = lower(least, part);
-    const double slid = state.shownLnTau + elapsedS * std::log1p(rules.morphRange) / rules.fadeS;
+    const double slid = state.shownLnTau + fadedS * std::log1p(rules.morphRange) / rules.fadeS;
     const double faded = std::min(least.mergingLnTau, least.shownLnTau + std::numbers::ln2);
     state.mergingLnTau = merging;
     state.shownLnTau = std::min(merging, std::max(slid, faded));
@@ -186,9 +191,11 @@ void noteElasticity(GovernorState::Elasticity& known, double lnTriangles, double
     known.sumXY *= kept;
     const double x = lnTriangles - known.lnTriangles;
     if (known.known && std::abs(x) < leastChange) return;
-    if (known.known) {
-        // A larger change of the time has another reason.
-        const double y = std::clamp(lnCost - known.lnCost, -2 * std::abs(x), 2 * std::abs(x));
+    // A larger change of the time has another reason, and one that is far larger tells nothing.
+    const double most = 2 * std::abs(x);
+    const double change = lnCost - known.lnCost;
+    if (known.known && std::abs(change) < most + ownChange) {
+        const double y = std::clamp(change, -most, most);
         const double share = std::min(mostChange / std::abs(x), 1.0);
         known.sumXX += share * share * x * x;
         known.sumXY += share * share * x * y;
@@ -209,11 +216,12 @@ struct Law {
     double exponent;
     double riseElasticity, fallElasticity;
     double leastX, mostX;
+    double sinceThenLn;  // by how much ln triangles can have fallen since the cost was that, <= 0
 };
 
 Law lawOf(GovernorState& state, GovernorBudget budget, double cost, const GovernorSample& sample,
           double elapsedS, const Rules& rules) {
-    Law law{exponentIn(sample, rules), 1, 1, state.lnTau[0], state.lnTau[0]};
+    Law law{exponentIn(sample, rules), 1, 1, state.lnTau[0], state.lnTau[0], 0};
     if (budget == GovernorBudget::Reading) law.leastX = law.mostX = state.meanLnTau;
     if (!isTime(budget)) return law;
     // A median of three is one frame late.
@@ -222,6 +230,9 @@ Law lawOf(GovernorState& state, GovernorBudget budget, double cost, const Govern
         std::minmax_element(state.lnTau.begin(), state.lnTau.begin() + static_cast<std::ptrdiff_t>(late) + 1);
     law.leastX = *least;
     law.mostX = *most;
+    law.sinceThenLn = state.lnTriangles[0] -
+                      *std::max_element(state.lnTriangles.begin(),
+                                        state.lnTriangles.begin() + static_cast<std::ptrdiff_t>(late) + 1);
     GovernorState::Elasticity& elasticity = state.elasticities[static_cast<std::size_t>(budget)];
     if (measured(sample.cost.triangles) > 0)
         noteElasticity(elasticity, state.lnTriangles[late], std::log(cost), elapsedS);
@@ -230,10 +241,58 @@ Law lawOf(GovernorState& state, GovernorBudget budget, double cost, const Govern
     return law;
 }
 
+// Returns ln of the share of the triangles that is left when the cost changes by the factor exp(lnFactor).
+double lnShareFor(double lnFactor, double elasticity) {
+    constexpr double leastTriangles = 0.1;  // share that one move leaves
+    return std::log(std::max((std::exp(lnFactor) - 1) / elasticity + 1, leastTriangles));
+}
+
 // Returns by how much ln τ must change for the cost to change by the factor exp(lnFactor).
 double moveFor(double lnFactor, double elasticity, const Law& law) {
-    constexpr double leastTriangles = 0.1;  // share that one move leaves
-    return -std::log(std::max((std::exp(lnFactor) - 1) / elasticity + 1, leastTriangles)) / law.exponent;
+    return -lnShareFor(lnFactor, elasticity) / law.exponent;
+}
+
+// Returns the ln τ at which so large a share of the triangles is left; x: of the selection.
+double lnTauLeaving(double lnShare, const MergeCurve& merges, double x) {
+    constexpr double step = std::numbers::ln2 / MergeCurve::perDoubling;
+    const double first = x - std::numbers::ln2;
+    for (std::size_t i = 1; i < MergeCurve::count; ++i) {
+        const double before = static_cast<double>(merges.lnShare[i - 1]);
+        const double here = static_cast<double>(merges.lnShare[i]);
+        if (here > lnShare) continue;
+        const double part = before > here ? (before - lnShare) / (before - here) : 1;
+        return first + step * (static_cast<double>(i - 1) + std::clamp(part, 0.0, 1.0));
+    }
+    return first + step * static_cast<double>(MergeCurve::count - 1);
+}
+
+// What is nearer than that needs no curve, unless it is already on its way.
+constexpr double lnLargeShare = -0.4, lnOnItsWay = -0.1, lnCaughtUp = -0.02;
+
+// Returns whether many chunks will merge even if τ stays.
+bool isOnItsWay(const GovernorState& state, const GovernorSample& sample, const Rules& rules) {
+    constexpr auto atTau = static_cast<double>(MergeCurve::perDoubling);
+    const double place = std::floor(atTau - rules.backlash / std::numbers::ln2 * MergeCurve::perDoubling);
+    return sample.merges.isKnown &&
+           static_cast<double>(sample.merges.lnShare[static_cast<std::size_t>(std::max(place, 0.0))]) <
+               (state.fadeSpeed > 1 ? lnCaughtUp : lnOnItsWay);
+}
+
+// Returns how many times as fast as ordinary ones fades should be.
+double fadeSpeedFor(const GovernorState& state, const GovernorSample& sample, const Rules& rules) {
+    if (!isOnItsWay(state, sample, rules)) return 1;
+    // Each level takes a frame or two more than its fade. The last levels keep the speed of the first.
+    const int levels = sample.merges.levels;
+    return std::clamp(std::max(state.fadeSpeed, levels > 1 ? levels + 1.0 : 1.0), 1.0, rules.mostFadeSpeed);
+}
+
+// Returns the ln τ that changes a cost by the factor exp(lnFactor), for a rise.
+double riseTo(double lnFactor, const GovernorState& state, const Law& law, const GovernorSample& sample,
+              double x, const Rules& rules) {
+    const double lnShare = lnShareFor(lnFactor, law.riseElasticity) - law.sinceThenLn;
+    if (sample.merges.isKnown && (lnShare < lnLargeShare || isOnItsWay(state, sample, rules)))
+        return lnTauLeaving(lnShare, sample.merges, x);
+    return law.leastX + moveFor(lnFactor, law.riseElasticity, law);
 }
 
 // The ln τ that bring a cost to the ceiling, to the middle and to the floor of its band.
@@ -242,16 +301,16 @@ struct Demand {
 };
 
 Demand demandOf(GovernorState& state, GovernorBudget budget, double cost, double limit,
-                const GovernorSample& sample, double elapsedS, const Rules& rules) {
+                const GovernorSample& sample, double x, double elapsedS, const Rules& rules) {
     const Law law = lawOf(state, budget, cost, sample, elapsedS, rules);
     const double growth = budget == GovernorBudget::Reading ? 0 : std::max(state.growthPerS, 0.0);
     const double lnUse = std::clamp(std::log(cost) - std::log(limit), -mostLn, mostLn);
     // Each chunk that waits becomes four.
     const double waiting = std::log1p(3 * within(sample.waitingShare, 0, 0, 1));
-    const double rise = law.riseElasticity, fall = law.fallElasticity;
-    return {law.leastX + moveFor(rules.lnCeiling - lnUse - foresightS * growth, rise, law),
-            law.leastX + moveFor(rules.lnMiddle - lnUse - creepForesightS * growth, rise, law),
-            law.mostX + moveFor(rules.lnFloor - lnUse - foresightS * growth - waiting, fall, law)};
+    return {
+        riseTo(rules.lnCeiling - lnUse - foresightS * growth, state, law, sample, x, rules),
+        riseTo(rules.lnMiddle - lnUse - creepForesightS * growth, state, law, sample, x, rules),
+        law.mostX + moveFor(rules.lnFloor - lnUse - foresightS * growth - waiting, law.fallElasticity, law)};
 }
 
 // Follows the speed at which reading lets τ fall, and returns it.
@@ -270,7 +329,8 @@ struct Demands {
     double fallPerS = std::numeric_limits<double>::infinity();
 };
 
-Demands demandsOf(Governed& result, const GovernorSample& sample, double elapsedS, const Rules& rules) {
+Demands demandsOf(Governed& result, const GovernorSample& sample, double x, double elapsedS,
+                  const Rules& rules) {
     constexpr double none = -std::numeric_limits<double>::infinity();
     GovernorState& state = result.state;
     Demands all{{none, none, none}};
@@ -279,7 +339,7 @@ Demands demandsOf(Governed& result, const GovernorSample& sample, double elapsed
         const double limit = measured(valueOf(rules.budget, budget));
         const double cost = costOf(state, budget);
         if (limit == 0 || cost == 0) continue;
-        const Demand demand = demandOf(state, budget, cost, limit, sample, elapsedS, rules);
+        const Demand demand = demandOf(state, budget, cost, limit, sample, x, elapsedS, rules);
         if (!result.governs || demand.floor > all.largest.floor) {
             result.binds = budget;
             result.use = cost / limit;
@@ -323,6 +383,38 @@ double nextX(double x, double merging, const Demands& demands, const GovernorSta
     return x;
 }
 
+// Calls found(split, visible children, levels to merge) for each split, children first. The levels are those between its
+// drawn chunks and the highest of its splits, itself included, that its τ would merge.
+template <class Found>
+void forEachSplit(const Selection& selection, const Found& found) {
+    struct Open {
+        std::size_t split = 0;
+        int childrenAhead = quadrantCount;
+        int visible = 0;
+        int levels = 0;  // the most below
+    };
+    std::vector<Open> open;  // from a root to the node before
+    const auto close = [&] {
+        const Open done = open.back();
+        open.pop_back();
+        const ChildrenRequest& split = selection.splits[done.split];
+        const int levels = split.priority <= 1 ? done.levels + 1 : 0;
+        if (!open.empty()) open.back().levels = std::max(open.back().levels, levels);
+        found(split, done.visible, levels);
+    };
+    std::size_t next = 0;
+    for (const VisitedNode& node : selection.touched) {
+        while (!open.empty() && open.back().childrenAhead == 0) close();
+        const bool isSplit = node.fate == NodeFate::Split && next < selection.splits.size();
+        if (!open.empty()) {
+            --open.back().childrenAhead;
+            open.back().visible += isSplit || node.fate == NodeFate::Drawn;
+        }
+        if (isSplit) open.push_back({next++});
+    }
+    while (!open.empty()) close();
+}
+
 }  // namespace
 
 double exponentOf(const Selection& selection, double tauPx) {
@@ -334,6 +426,27 @@ double exponentOf(const Selection& selection, double tauPx) {
     if (selection.draw.empty()) return 0;
     const auto drawn = static_cast<double>(selection.draw.size());
     return -std::log2(1 - 0.75 * static_cast<double>(merges) / drawn);
+}
+
+MergeCurve mergeCurveOf(const Selection& selection) {
+    MergeCurve curve;
+    if (selection.draw.empty() || selection.splits.empty()) return curve;
+    curve.isKnown = true;
+    std::array<int, MergeCurve::count> merged{};  // chunks fewer at each τ
+    forEachSplit(selection, [&](const ChildrenRequest& split, int visible, int levels) {
+        curve.levels = std::max(curve.levels, levels);
+        const double doublings = 1 + std::log2(std::max(static_cast<double>(split.priority), 1e-9));
+        const double place = std::ceil(std::max(doublings, 0.0) * MergeCurve::perDoubling);
+        if (place < static_cast<double>(MergeCurve::count))
+            merged[static_cast<std::size_t>(place)] += std::max(visible - 1, 0);
+    });
+    const auto drawn = static_cast<double>(selection.draw.size());
+    double left = drawn;
+    for (std::size_t i = 0; i < MergeCurve::count; ++i) {
+        left -= merged[i];
+        curve.lnShare[i] = static_cast<float>(std::log(std::max(left / drawn, 1e-3)));
+    }
+    return curve;
 }
 
 std::size_t neededChunks(const Selection& selection) {
@@ -367,7 +480,9 @@ Governed govern(const GovernorState& before, const GovernorSample& sample, const
     takeSample(state, sample, x, elapsedS, rules);
 
     // 2. Ask each budget for its τ.
-    const Demands demands = demandsOf(result, sample, elapsedS, rules);
+    const Demands demands = demandsOf(result, sample, x, elapsedS, rules);
+    state.fadeSpeed = result.governs ? fadeSpeedFor(state, sample, rules) : 1;
+    result.fadeS = rules.fadeS / state.fadeSpeed;
     if (!result.governs) return result;
 
     // 3. Move.
@@ -378,7 +493,9 @@ Governed govern(const GovernorState& before, const GovernorSample& sample, const
     if (demands.largest.ceiling > rules.mostX) result.limit = GovernorLimit::MostTau;
     if (demands.largest.floor < rules.leastX && next - rules.leastX < atLimit)
         result.limit = GovernorLimit::LeastTau;
-    state.sinceRiseS = next > x ? 0 : std::min(state.sinceRiseS + elapsedS, longWayS);
+    // Chunks that merge late after a rise must not split again at once.
+    const bool rises = next > x || isOnItsWay(state, sample, rules);
+    state.sinceRiseS = rises ? 0 : std::min(state.sinceRiseS + elapsedS, longWayS);
     state.sinceFallS = next < x ? 0 : std::min(state.sinceFallS + elapsedS, longWayS);
     // A τ that stays keeps its bits.
     if (next != x || measured(sample.tauPx) == 0) {

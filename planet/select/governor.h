@@ -8,6 +8,7 @@
 //         const planet::Governed governed = planet::govern(governor, sample, settings);
 //         governor = governed.state;
 //         lod.tauPx = governed.tauPx;
+//         lod.fadeS = governed.fadeS;
 //     }
 //
 // A cost c follows τ by a power law near the τ of now. The governor works with logarithms, x = ln τ:
@@ -19,15 +20,16 @@
 // least squares over the changes of both in the last half minute; before any, a rise expects 0.9 and a fall 1. The rest of
 // a time does not follow τ. For counts e is 1. Therefore each sample gives the factor by which τ must change, and one change
 // of τ corrects a step of the cost. With a wrong exponent the error shrinks by the factor |1 - true / assumed| each time the
-// cost responds, so it converges if the true exponent is below twice the assumed one.
+// cost responds, so it converges if the true exponent is below twice the assumed one. Far from the τ of now there is no such
+// law. So where a third of the triangles must go, τ is read from the errors of all chunks that are split (MergeCurve).
 //
 // A cost belongs to an older τ (Smith, "Closer control of loops with dead time", 1957). Two bounds of it are followed,
 // the smallest and the largest τ that a cost can belong to; τ rises by the smaller one and falls by the larger one, so
 // that a change that has been made, but is not yet measured, is not made again:
 //   - A chunk merges when its parent's ε is at most τ (1 - LodSettings::hysteresis). A τ that rises after a fall first
 //     crosses that backlash.
-//   - Chunks morph onto their parents before they merge (lod_select.h). That takes fadeS for each level, that is for each
-//     doubling of τ, or for a rise by less than 1 + morphRange that share of fadeS. When τ falls, chunks split at once.
+//   - Chunks morph onto their parents before they merge (lod_select.h). That takes the time of a fade for each level, that is
+//     for each doubling of τ, or for a rise by less than 1 + morphRange that share of it. When τ falls, chunks split at once.
 //   - GPU times are of a frame gpuFramesLate frames ago. A time is the median of three frames, so that one slow frame
 //     moves nothing.
 //   - Blocks must load before a smaller τ costs anything. While chunks wait for theirs, τ falls only as far as the budget
@@ -43,8 +45,11 @@
 // A camera that flies towards detail makes the level grow. That growth, which the triangles tell without noise, is foreseen
 // by 0.1 s, and by 0.3 s for creeping.
 //
-// If several budgets are on, the one that needs the largest τ binds. After a step of the cost, the cost is back within its
-// budget after the age of its measurement and one fadeS for each doubling of τ that it needs.
+// If several budgets are on, the one that needs the largest τ binds.
+//
+// Fades catch up: while many chunks have n > 1 levels to merge, each level fades in fadeS / (n + 1). So after a step of the cost
+// that needs several levels, the cost is back within its budget after the age of its measurement and about one fadeS. Whoever
+// draws must take Governed::fadeS, or say in GovernorSettings::leastFadeS that fades keep their time.
 #pragma once
 
 #include <array>
@@ -85,16 +90,30 @@ struct GovernorSettings {
     double fallPerS = 0.2;  // of ln τ, > 0; larger: sharp sooner, but more chunks change back and forth
     // These follow LodSettings (lodHysteresis is its hysteresis). An engine without morphs or hysteresis sets them to 0.
     double fadeS = LodSettings{}.fadeS;
+    double leastFadeS = 0.03;  // of Governed::fadeS, >= 0; fadeS or more: fades never catch up
     double morphRange = LodSettings{}.morphRange;
     double lodHysteresis = LodSettings{}.hysteresis;
     int gpuFramesLate = 4;  // age of GPU times, frames, [0, 6]; if they are older, τ overshoots
 };
+
+// Which share of the drawn triangles is left when chunks have merged with a larger τ.
+struct MergeCurve {
+    static constexpr std::size_t perDoubling = 4;
+    static constexpr std::size_t count = 8 * perDoubling + 1;
+    // ln of the share, by τ: from half the τ of the selection to 128 times that. Not above 0, and never rising.
+    std::array<float, count> lnShare{};
+    int levels = 0;  // the most between a drawn chunk and its ancestor that the τ of the selection would draw
+    bool isKnown = false;
+};
+// Reads it from the splits of a selection that was made with the τ of the sample. Morphs are not counted in.
+MergeCurve mergeCurveOf(const Selection& selection);
 
 struct GovernorSample {
     GovernorCosts cost{};     // of the last frame
     double tauPx = 2;         // with which the last frame was selected
     double elapsedS = 0;      // since the last sample; clamped to [0, 1]
     double exponent = 0;      // k, from exponentOf; 0: unknown
+    MergeCurve merges{};      // from mergeCurveOf
     double waitingShare = 0;  // share of the drawn chunks that wait for their children's blocks, [0, 1]
 };
 // Returns k of a selection: by how many octaves the drawn chunks would become fewer if τ doubled, by their parents' ε.
@@ -108,7 +127,7 @@ struct GovernorState {
     static constexpr std::size_t keptFrames = 8;
     static constexpr std::size_t fadeParts = 16;
 
-    // The least values in a part of the last fadeS.
+    // The least values in a part of the last fade.
     struct Part {
         double mergingLnTau = 0;
         double shownLnTau = 0;
@@ -122,12 +141,13 @@ struct GovernorState {
         bool known = false;
     };
 
-    std::uint64_t frames = 0;                      // samples taken
-    double mergingLnTau = 0;                       // ln τ, less the backlash that it has not crossed
-    double shownLnTau = 0;                         // ln τ that the drawn chunks have morphed to
-    std::array<Part, fadeParts> parts{};           // newest first
-    double partS = 0;                              // age of the newest part
-    std::array<double, keptFrames> lnTau{};        // shownLnTau of the last frames, newest first
+    std::uint64_t frames = 0;                // samples taken
+    double fadeSpeed = 1;                    // GovernorSettings::fadeS / Governed::fadeS of the last call
+    double mergingLnTau = 0;                 // ln τ, less the backlash that it has not crossed
+    double shownLnTau = 0;                   // ln τ that the drawn chunks have morphed to
+    std::array<Part, fadeParts> parts{};     // newest first
+    double partS = 0;                        // age of the newest part
+    std::array<double, keptFrames> lnTau{};  // shownLnTau of the last frames, newest first
     std::array<double, keptFrames> lnTriangles{};  // likewise
     double growthPerS = 0;                         // of the level of the triangles, for a moving camera
     std::array<std::array<double, 3>, governorBudgetCount>
@@ -145,6 +165,7 @@ enum class GovernorLimit : std::uint8_t { None, LeastTau, MostTau };
 struct Governed {
     GovernorState state;
     double tauPx = 2;      // for the next frame
+    double fadeS = 0;      // LodSettings::fadeS for the next frame
     bool governs = false;  // a budget is on and its cost is measured; otherwise τ is that of the sample
     GovernorBudget binds = GovernorBudget::CpuTime;  // needs the largest τ
     double use =

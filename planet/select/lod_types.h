@@ -133,8 +133,9 @@ struct Selection {
     std::vector<ChildrenRequest> requests;  // highest priority first; children absent or requested
     std::vector<ChildrenRequest> splits;    // with resident children, parents first
     std::vector<LevelSeam> seams;
-    // All visited nodes, parents first: the drawn ones, their ancestors, and the culled siblings of both.
-    // They must be resident to draw this view again.
+    // All visited nodes: the drawn ones, their ancestors, and the culled siblings of both. They must be resident to draw
+    // this view again. A split node is followed by its four children, each with all that is below it; `splits` has the
+    // same order.
     std::vector<VisitedNode> touched;
     SelectionCounters counters;
 };

@@ -264,8 +264,8 @@ double medianUseOf(const std::vector<BudgetedFrame>& frames, double fromS, doubl
     return planet::percentileOf(uses, 0.5);
 }
 
-// Chunks morph by one level in each fadeS, so that the largest steps take longer than half a second.
-TEST_F(BudgetFlights, largeStepsOfTheTimesAreSettledInAFadeForEachDoublingOfTheTolerance) {
+// Chunks merge over several levels, and fades catch up.
+TEST_F(BudgetFlights, largeStepsOfTheTimesAreSettledWithinHalfASecondToo) {
     constexpr CostModel model{.fixedMs = 0.2, .msPerMillion = 10};
     for (const double factor : {3.0, 5.0}) {
         const CostStep step{.timeS = 10, .factor = factor, .untilS = 20};
@@ -275,10 +275,10 @@ TEST_F(BudgetFlights, largeStepsOfTheTimesAreSettledInAFadeForEachDoublingOfTheT
         const auto tauAt = [&](double timeS) {
             return flown.frames[static_cast<std::size_t>(timeS / budgetFrameS)].tauPx;
         };
-        const double doublings = std::ceil(std::log2(tauAt(step.timeS + 0.5) / tauAt(step.timeS - 0.1)));
+        EXPECT_GT(tauAt(step.timeS + 0.5), 3 * tauAt(step.timeS - 0.1)) << factor;
         const double settledS = settlingTimeS(flown.budgeted, step.timeS, step.untilS);
         EXPECT_GT(settledS, 0) << factor;
-        EXPECT_LT(settledS, doublings * settings.lod.fadeS + 0.1) << factor;
+        EXPECT_LT(settledS, 0.5) << factor;
         EXPECT_GE(medianUseOf(flown.budgeted, step.timeS + 2, step.untilS), 0.85) << factor;
         EXPECT_EQ(settlingTimeS(flown.budgeted, step.untilS, 30), 0) << factor;
         EXPECT_GE(medianUseOf(flown.budgeted, step.untilS + 4, 30), 0.85) << factor;

@@ -59,6 +59,26 @@ TEST_F(GovernedTau, followsABudgetAndGivesTheUsersTauBack) {
     EXPECT_FALSE(governing_.use.isOn);
 }
 
+TEST_F(GovernedTau, shortensFadesAfterALargeRiseAndGivesTheUsersBack) {
+    settings_.lod.fadeS = 0.4;
+    settings_.lod.tauPx = 0.3;
+    ASSERT_TRUE(planet_->settle(planet::viewAt(10, 20), settings_.lod, planet::noUpload, planet::timeoutS));
+    settings_.budget.triangles = 1;
+    settings_.budget.mostTauPx = 20;
+    for (int i = 0; i < 3; ++i) frame(), govern();
+    EXPECT_LT(settings_.lod.fadeS, 0.4);
+    EXPECT_EQ(ungoverned(governing_, settings_).lod.fadeS, 0.4);
+    for (int i = 0; i < 120; ++i) frame(), govern();
+    EXPECT_EQ(settings_.lod.fadeS, 0.4);
+    settings_.lod.fadeS = 0.3;
+    settings_.lod.morph = false;
+    frame(), govern();
+    EXPECT_EQ(settings_.lod.fadeS, 0.3);
+    settings_.budget.triangles = 0;
+    govern();
+    EXPECT_EQ(settings_.lod.fadeS, 0.3);
+}
+
 TEST_F(GovernedTau, settlesUntilItHasBeenStillForAWhile) {
     settings_.budget.triangles = 100'000'000;
     settings_.budget.leastTauPx = settings_.lod.tauPx;

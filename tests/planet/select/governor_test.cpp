@@ -10,7 +10,13 @@
 #include <deque>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
+
+#include "planet/select/lod_select.h"
+#include "planet/sphere/view.h"
+#include "tests/support/fake_pyramid.h"
+#include "tests/support/fake_selection.h"
 
 namespace planet {
 namespace {
@@ -21,7 +27,7 @@ constexpr double frameS = 1.0 / 60;
 // they have morphed, and that split at once. Unmerged, the groups together cost τ^-exponent at τ = 1 px and above.
 class Engine {
 public:
-    explicit Engine(double exponent = 1, double fadeS = 0.25) : fadeS_(fadeS) {
+    explicit Engine(double exponent = 1) {
         constexpr double step = 0.005;
         constexpr int count = 2000;
         for (int i = 0; i < count; ++i) {
@@ -30,8 +36,8 @@ public:
         }
     }
 
-    // Returns the triangles, relative to those at τ = 1 px.
-    double step(double tauPx) {
+    // Returns the triangles, relative to those at τ = 1 px. fadeS: of a whole morph.
+    double step(double tauPx, double fadeS) {
         const double x = std::log(tauPx);
         double sum = 0;
         for (Group& group : groups_) {
@@ -40,7 +46,7 @@ public:
                 group.merged = false;
                 group.morph = 1;
             }
-            const double most = fadeS_ > 0 ? frameS / fadeS_ : 1;
+            const double most = fadeS > 0 ? frameS / fadeS : 1;
             group.morph += std::clamp(natural - group.morph, -most, most);
             if (group.morph >= 1 && group.lnParentEps <= x + std::log(0.9)) group.merged = true;
             if (!group.merged) sum += group.cost;
@@ -55,7 +61,6 @@ private:
         bool merged = false;
         double morph = 0;
     };
-    double fadeS_;
     std::vector<Group> groups_;
 };
 
@@ -83,7 +88,7 @@ struct Plant {
     double ms = 0;
 
     void frame(double elapsedS = frameS) {
-        triangles = factor * trianglesAt1 * engine.step(tauPx);
+        triangles = factor * trianglesAt1 * engine.step(tauPx, last.governs ? last.fadeS : settings.fadeS);
         const double spread = std::uniform_real_distribution(-noise, noise)(random);
         ms = slowdown * (factor * fixedMs + msPerTriangle * triangles) * (1 + spread);
         gpuMs.push_back(ms);
@@ -565,17 +570,22 @@ TEST(Governor, survivesHostileNumbers) {
                         .risePerS = any(),
                         .fallPerS = any(),
                         .fadeS = any(),
+                        .leastFadeS = any(),
                         .morphRange = any(),
                         .lodHysteresis = any(),
                         .gpuFramesLate = i % 3 == 0 ? -1000000 : i % 1000000};
         }
-        const GovernorSample sample{costs(), any(), any(), any(), any()};
+        GovernorSample sample{costs(), any(), any(), any(), {}, any()};
+        for (float& share : sample.merges.lnShare) share = static_cast<float>(any());
+        sample.merges.isKnown = i % 2 == 0;
         const Governed governed = govern(state, sample, settings);
         state = governed.state;
         if (!governed.governs) continue;
         ASSERT_TRUE(std::isfinite(governed.tauPx)) << i;
         ASSERT_GT(governed.tauPx, 0) << i;
         ASSERT_FALSE(std::isnan(governed.use)) << i;
+        ASSERT_TRUE(std::isfinite(governed.fadeS)) << i;
+        ASSERT_GE(governed.fadeS, 0) << i;
     }
     // It recovers.
     Plant plant{.settings = {.budget = {.triangles = 4e5}}, .state = state};
@@ -588,6 +598,170 @@ TEST(Governor, limitsThatCrossAreTheLeastTau) {
     Plant plant{.settings = {.budget = {.triangles = 4e5}, .leastTauPx = 3, .mostTauPx = 1}};
     plant.run(1);
     EXPECT_NEAR(plant.tauPx, 3, 1e-12);
+}
+
+// A planet with enough chunks for triangles to follow τ over several levels.
+const ChunkTree& deepTree() {
+    static const ChunkTree tree = [] {
+        const FakePyramid pyramid = makeFakePyramid(6);
+        return residentTree(pyramid, deepestLevelOf(pyramid.shape));
+    }();
+    return tree;
+}
+
+// A still view of that planet, selected by the settings that the governor chooses.
+struct Selected {
+    View view;
+    GovernorSettings settings{};
+    LodSettings lod{};
+    double msPerTriangle = 0, fixedMs = 0;
+    double factor = 1;  // of all costs
+    GovernorState state{};
+    Selection selection{};
+    double triangles = 0, ms = 0;
+    std::deque<double> gpuMs{};
+
+    void frame() {
+        selectChunks(deepTree(), view, lod, selection, frameS);
+        triangles = factor * static_cast<double>(selection.counters.triangles());
+        ms = factor * fixedMs + msPerTriangle * triangles;
+        gpuMs.push_back(ms);
+        constexpr std::size_t framesLate = 3;
+        while (gpuMs.size() > framesLate + 1) gpuMs.pop_front();
+        const GovernorSample sample{.cost = {.gpuMs = gpuMs.front(), .triangles = triangles},
+                                    .tauPx = lod.tauPx,
+                                    .elapsedS = frameS,
+                                    .exponent = exponentOf(selection, lod.tauPx),
+                                    .merges = mergeCurveOf(selection)};
+        const Governed governed = govern(state, sample, settings);
+        state = governed.state;
+        lod.tauPx = governed.tauPx;
+        lod.fadeS = governed.fadeS;
+    }
+};
+
+// Views in which a hundred chunks or more are drawn, with a budget of the triangles, or of a time that follows them.
+std::vector<Selected> selectedViews(bool budgetIsTime) {
+    std::vector<Selected> all;
+    for (int i = 0; i < 8; ++i) {
+        const CameraPose pose{
+            .latitudeDeg = -60.0 + 15 * i, .longitudeDeg = 37.0 * i, .altitudeM = 60e3, .pitchDeg = -60};
+        Selected one{.view = viewFromPose(pose, deepTree().shape.radiusM, 1.1, 1280, 720)};
+        one.lod.tauPx = 0.1;
+        selectChunks(deepTree(), one.view, one.lod, one.selection);
+        if (one.selection.draw.size() < 100) continue;
+        const auto triangles = static_cast<double>(one.selection.counters.triangles());
+        one.msPerTriangle = 3.6 / triangles;
+        one.fixedMs = 0.3;
+        one.settings.leastTauPx = 0.05;
+        one.settings.mostTauPx = 64;
+        if (budgetIsTime)
+            one.settings.budget.gpuMs = 4;
+        else
+            one.settings.budget.triangles = 0.8 * triangles;
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+// Plants a step of the cost, and returns the seconds until it stays within the budget.
+double settledAfterStepS(Selected& selected, double factor) {
+    const GovernorCosts& budget = selected.settings.budget;
+    for (int i = 0; i < 480; ++i) selected.frame();
+    selected.factor = factor;
+    double overS = 0;
+    for (int i = 1; i <= 120; ++i) {
+        selected.frame();
+        const bool isOver =
+            budget.gpuMs > 0 ? selected.ms > budget.gpuMs : selected.triangles > budget.triangles;
+        if (isOver) overS = i * frameS;
+    }
+    return overS;
+}
+
+TEST(Governor, settlesWithinHalfASecondOfAStepOverSeveralLevelsOfDetail) {
+    for (const bool budgetIsTime : {false, true}) {
+        for (const double factor : {2.0, 3.0, 5.0}) {
+            std::vector<Selected> views = selectedViews(budgetIsTime);
+            ASSERT_GE(views.size(), 4u);
+            for (Selected& selected : views) {
+                Selected patient = selected;
+                const double settledS = settledAfterStepS(selected, factor);
+                EXPECT_GT(settledS, 0) << factor;
+                EXPECT_LT(settledS, 0.5) << factor;
+                if (factor < 5) continue;
+                // The same without fades that catch up takes longer.
+                patient.settings.leastFadeS = patient.settings.fadeS;
+                EXPECT_GT(settledAfterStepS(patient, factor), 0.5);
+                EXPECT_GT(patient.lod.tauPx, 4 * 0.1);
+            }
+        }
+    }
+}
+
+TEST(Governor, fadesAreShorterWhileChunksHaveSeveralLevelsToMerge) {
+    std::vector<Selected> views = selectedViews(false);
+    ASSERT_FALSE(views.empty());
+    Selected& selected = views.front();
+    for (int i = 0; i < 480; ++i) selected.frame();
+    EXPECT_EQ(selected.lod.fadeS, selected.settings.fadeS);
+    selected.factor = 3;
+    for (int i = 0; i < 2; ++i) selected.frame();
+    EXPECT_LT(selected.lod.fadeS, selected.settings.fadeS / 2);
+    for (int i = 0; i < 120; ++i) selected.frame();
+    EXPECT_EQ(selected.lod.fadeS, selected.settings.fadeS);
+
+    GovernorSample sample{.cost = {.triangles = 1e6}, .tauPx = 2, .elapsedS = frameS};
+    sample.merges.isKnown = true;
+    sample.merges.levels = 3;
+    const auto fadeS = [&](double leastFadeS) {
+        return govern({}, sample, {.budget = {.triangles = 1e5}, .fadeS = 0.8, .leastFadeS = leastFadeS})
+            .fadeS;
+    };
+    EXPECT_EQ(fadeS(0.01), 0.8) << "nothing is merging";
+    sample.merges.lnShare.fill(-1);
+    EXPECT_EQ(fadeS(0.01), 0.2);
+    EXPECT_EQ(fadeS(0.4), 0.4);
+    EXPECT_EQ(fadeS(0.8), 0.8);
+    EXPECT_EQ(govern({}, sample, {.fadeS = 0.8}).fadeS, 0.8) << "no budget is on";
+}
+
+// Without culling, each split that is merged takes away three chunks.
+TEST(Governor, theMergeCurveIsWhatLargerTolerancesDraw) {
+    const View view = selectedViews(false).front().view;
+    LodSettings lod = withoutCulling(0.2);
+    const Selection now = select(deepTree(), view, lod);
+    const MergeCurve curve = mergeCurveOf(now);
+    ASSERT_TRUE(curve.isKnown);
+    for (std::size_t i = 0; i < MergeCurve::count; ++i) {
+        lod.tauPx = 0.2 * std::exp2(static_cast<double>(i) / MergeCurve::perDoubling - 1);
+        const std::size_t drawn =
+            lod.tauPx < 0.2 ? now.draw.size() : select(deepTree(), view, lod).draw.size();
+        const double share = static_cast<double>(drawn) / static_cast<double>(now.draw.size());
+        EXPECT_NEAR(curve.lnShare[i], std::log(share), 1e-4) << i;
+    }
+    EXPECT_LT(curve.lnShare.back(), -1);
+    EXPECT_EQ(curve.levels, 0);
+    EXPECT_FALSE(mergeCurveOf({}).isKnown);
+}
+
+// A selection that fades keeps its splits when τ rises, and its curve then says what is on its way.
+TEST(Governor, theMergeCurveCountsTheLevelsThatAreOnTheirWay) {
+    const View view = selectedViews(false).front().view;
+    LodSettings lod;
+    lod.frustumCulling = lod.horizonCulling = false;
+    lod.tauPx = 0.2;
+    Selection selection = select(deepTree(), view, lod);
+    std::uint32_t deepest = selection.counters.deepestLevel;
+    const auto before = static_cast<double>(selection.draw.size());
+    lod.tauPx = 3.2;
+    const Selection settled = select(deepTree(), view, lod);
+    selectChunks(deepTree(), view, lod, selection, frameS);
+    const MergeCurve curve = mergeCurveOf(selection);
+    EXPECT_GE(curve.levels, static_cast<int>(deepest - settled.counters.deepestLevel));
+    EXPECT_LE(curve.levels, static_cast<int>(deepest));
+    const double share = static_cast<double>(settled.draw.size()) / before;
+    EXPECT_NEAR(curve.lnShare[MergeCurve::perDoubling], std::log(share), 0.02);
 }
 
 TEST(Governor, exponentIsThatOfTheChunksThatWouldMerge) {
