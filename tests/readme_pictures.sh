@@ -258,6 +258,27 @@ picture_sources() {
     point viewport/picture 0.5 0.5; sleep 2
     dock sources
 }
+# The whole window, because the outlines lie on the globe.
+picture_regions() {
+    bake india.chk earth/elevation.tif --colour earth/colour.jpg
+    cat >india.regions.toml <<'REGIONS'
+[[region]]
+name = "Himalaya"
+tau_factor = 0.5
+border_m = 200000
+circles = [[29.5, 82, 450000], [28, 87.5, 450000]]
+
+[[region]]
+name = "Ganges delta"
+tau_factor = 0.7
+border_m = 50000
+polygons = [[[24.5, 87.5], [24.5, 91.5], [21.5, 92], [21, 87]]]
+REGIONS
+    world=india.chk start < <(above_india; window 1400 860; only regions 330; echo 'lod.tau_px = 0.25'
+        echo 'overlay.colour_by = "region"'; echo 'overlay.opacity = 0.5'; echo 'overlay.outlines = true')
+    settle; click "regions/region Himalaya"; aside
+    whole regions
+}
 # The whole window, because the pins lie on the globe.
 picture_notes() {
     start < <(himalaya; window 1400 800; only notes 360)
@@ -374,7 +395,7 @@ done
 
 windows="editor errors observer light compare layers lod seams overlay surface light_panel camera presets quadtree \
     chunk paging frame timeline bake sources log true_error cracks pops precision ruler flight sweep suggest trace_cesium trace trace_nodes \
-    trace_what_if notes"
+    trace_what_if notes regions"
 any=no
 for name in $windows; do asked $name && any=yes; done
 [ $any = yes ] || exit $((failures > 0))
