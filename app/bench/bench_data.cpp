@@ -90,23 +90,37 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
     paging.budgetBytes = std::size_t{1} << 30;
     std::vector<BlockToRead> blocks;
     double bytes = 0;
-    const std::array<std::function<void()>, 2> jobs = {
+    const auto loadWith = [&](int loaders) {
+        paging.loaderThreads = loaders;
+        const auto opened = planet::Planet::open(planet.chunkFile, paging);
+        if (!opened) return;
+        (*opened)->settle(view, lod, nowhere, loadTimeoutS);
+        bytes = static_cast<double>((*opened)->paging().bytesRead());
+        if (blocks.empty()) blocks = residentBlocks((*opened)->tree());
+    };
+    const auto readOne = [&](const BlockToRead& block) {
+        return file->readChildren(block.parent, block.location, *block.parentHeights);
+    };
+    const std::array<std::function<void()>, 4> jobs = {
+        [&] { loadWith(1); },
         [&] {
-            const auto opened = planet::Planet::open(planet.chunkFile, paging);
-            if (!opened) return;
-            (*opened)->settle(view, lod, nowhere, loadTimeoutS);
-            bytes = static_cast<double>((*opened)->paging().bytesRead());
-            if (blocks.empty()) blocks = residentBlocks((*opened)->tree());
+            for (const BlockToRead& block : blocks) static_cast<void>(readOne(block));
         },
+        [&] { loadWith(2); },
+        // Loading keeps what it has read, and new memory takes time.
         [&] {
-            for (const BlockToRead& block : blocks)
-                static_cast<void>(file->readChildren(block.parent, block.location, *block.parentHeights));
+            std::vector<Result<planet::SiblingBlock>> kept;
+            for (const BlockToRead& block : blocks) kept.push_back(readOne(block));
         }};
     const std::vector<std::vector<double>> ms = timeInTurn(jobs, options.rounds);
     if (blocks.empty()) return planet::badInput(planet.chunkFile.string() + ": no block could be loaded");
-    std::vector<BenchRow> rows =
-        pairedRates({"loading, one loader", "the same blocks in a loop"}, "MB/s", bytes / 1e6, ms);
+    const std::string loop = "the same blocks in a loop";
+    std::vector<BenchRow> rows = pairedRates({"loading, one loader", loop}, "MB/s", bytes / 1e6, ms);
+    BenchRow two = pairedRates({"loading, two loaders", loop}, "MB/s", bytes / 1e6, {ms[2], ms[1]}).front();
     rows.front().aim = {.bound = 0.9, .isUpperBound = false, .isOfRatio = true};
+    two.aim = {.bound = 1.6, .isUpperBound = false, .isOfRatio = true};
+    rows.insert(rows.begin() + 1, std::move(two));
+    rows.push_back({loop + ", kept in memory", "rate", "MB/s", spreadOf(perSecond(bytes / 1e6, ms[3]))});
     const auto count = static_cast<double>(blocks.size());
     rows.push_back({"either", "blocks", "", {count, count, count}});
     return rows;

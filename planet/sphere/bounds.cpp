@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "planet/base/cpu_clones.h"
+#include "planet/sphere/cube_sphere.h"
+
 namespace planet {
 
 namespace {
@@ -29,41 +32,101 @@ constexpr double maxSecondDerivative = 1.5;
 // Bounds the rounding of unit vectors, and of results of a few operations on them.
 constexpr double boxRounding = 1e-14;
 
-struct Range {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-
-    void add(double value) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-};
-
 double marginBetweenSamples(double side) {
     const double g = side / sampleCells;
     return g * g / 8 * (2 * maxSecondDerivative) + boxRounding;
 }
 
-using Samples = std::array<glm::dvec3, samplesPerSide * samplesPerSide>;
+// Directions, each component by itself, so that several are computed at once. The last one is repeated up to a whole
+// number of groups.
+constexpr std::size_t groupSize = 8;
+constexpr std::size_t sampleCount = samplesPerSide * samplesPerSide;
+constexpr std::size_t paddedCount = (sampleCount + groupSize - 1) / groupSize * groupSize;
+struct Samples {
+    std::array<std::array<double, paddedCount>, 3> components{};
+
+    glm::dvec3 operator[](std::size_t i) const {
+        return {components[0][i], components[1][i], components[2][i]};
+    }
+};
+constexpr std::size_t middleSample = sampleCount / 2;
+
+// Computes one component of cubePoint for places on a face, with the same bits.
+PLANET_ALWAYS_INLINE void setCubeComponent(const std::array<double, paddedCount>& u,
+                                           const std::array<double, paddedCount>& v, double normal,
+                                           double uAxis, double vAxis, std::array<double, paddedCount>& out) {
+    for (std::size_t i = 0; i < paddedCount; ++i) out[i] = normal + u[i] * uAxis + v[i] * vAxis + 0.0;
+}
+
+// Computes sphereFromCube of cubePoint for places on a face, with the same bits.
+PLANET_CPU_CLONES void setDirections(const FaceAxes& axes, const std::array<double, paddedCount>& u,
+                                     const std::array<double, paddedCount>& v, Samples& samples) {
+    std::array<double, paddedCount> x, y, z;
+    setCubeComponent(u, v, axes.normal.x, axes.u.x, axes.v.x, x);
+    setCubeComponent(u, v, axes.normal.y, axes.u.y, axes.v.y, y);
+    setCubeComponent(u, v, axes.normal.z, axes.u.z, axes.v.z, z);
+    for (std::size_t i = 0; i < paddedCount; ++i) {
+        const double xx = x[i] * x[i], yy = y[i] * y[i], zz = z[i] * z[i];
+        samples.components[0][i] = x[i] * std::sqrt(1 - (yy + zz) / 2 + yy * zz / 3);
+        samples.components[1][i] = y[i] * std::sqrt(1 - (zz + xx) / 2 + zz * xx / 3);
+        samples.components[2][i] = z[i] * std::sqrt(1 - (xx + yy) / 2 + xx * yy / 3);
+    }
+}
 
 Samples sampleDirections(Face face, const FaceSquare& square) {
+    std::array<double, samplesPerSide> uOf{}, vOf{};
+    for (std::size_t i = 0; i < samplesPerSide; ++i) {
+        uOf[i] = square.u + square.side * static_cast<double>(i) / sampleCells;
+        vOf[i] = square.v + square.side * static_cast<double>(i) / sampleCells;
+    }
+    std::array<double, paddedCount> u, v;
+    for (std::size_t row = 0; row < samplesPerSide; ++row) {
+        std::ranges::copy(uOf, u.begin() + row * samplesPerSide);
+        std::fill_n(v.begin() + row * samplesPerSide, samplesPerSide, vOf[row]);
+    }
+    std::fill(u.begin() + sampleCount, u.end(), uOf.back());
+    std::fill(v.begin() + sampleCount, v.end(), vOf.back());
     Samples samples;
-    std::size_t next = 0;
-    for (int j = 0; j <= sampleCells; ++j) {
-        const double v = square.v + square.side * j / sampleCells;
-        for (int i = 0; i <= sampleCells; ++i) {
-            const double u = square.u + square.side * i / sampleCells;
-            samples[next++] = sphereFromCube(cubePoint(face, u, v));
+    setDirections(faceAxes(face), u, v, samples);
+    return samples;
+}
+
+// Finds the least and the largest component along an axis.
+PLANET_CPU_CLONES void setRange(const Samples& samples, const glm::dvec3& axis, double& least, double& most) {
+    const auto& [x, y, z] = samples.components;
+    std::array<double, groupSize> low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < paddedCount; i += groupSize) {
+        for (std::size_t k = 0; k < groupSize; ++k) {
+            const double along = axis.x * x[i + k] + axis.y * y[i + k] + axis.z * z[i + k];
+            low[k] = along < low[k] ? along : low[k];
+            high[k] = along > high[k] ? along : high[k];
         }
     }
-    return samples;
+    least = *std::ranges::min_element(low);
+    most = *std::ranges::max_element(high);
+}
+
+// Finds the largest squared distance from a point.
+PLANET_CPU_CLONES void setFarthest(const Samples& samples, const glm::dvec3& from, double& squared) {
+    const auto& [x, y, z] = samples.components;
+    std::array<double, groupSize> most{};
+    for (std::size_t i = 0; i < paddedCount; i += groupSize) {
+        for (std::size_t k = 0; k < groupSize; ++k) {
+            const double dx = x[i + k] - from.x, dy = y[i + k] - from.y, dz = z[i + k] - from.z;
+            const double distance = dx * dx + dy * dy + dz * dz;
+            most[k] = distance > most[k] ? distance : most[k];
+        }
+    }
+    squared = *std::ranges::max_element(most);
 }
 
 // Returns east along the middle row of the square, and north and up at its middle.
 std::array<glm::dvec3, 3> localAxes(const Samples& samples) {
-    const std::size_t middle = samples.size() / 2;
-    const glm::dvec3 up = glm::normalize(samples[middle]);
-    const glm::dvec3 along = samples[middle + sampleCells / 2] - samples[middle - sampleCells / 2];
+    const glm::dvec3 up = glm::normalize(samples[middleSample]);
+    const glm::dvec3 along =
+        samples[middleSample + sampleCells / 2] - samples[middleSample - sampleCells / 2];
     const glm::dvec3 east = glm::normalize(along - glm::dot(along, up) * up);
     return {east, glm::cross(up, east), up};
 }
@@ -84,11 +147,11 @@ OrientedBox boxOf(const ChunkDirections& directions, double minRadiusM, double m
 
 DirectionCone coneOf(const Samples& samples, double margin) {
     DirectionCone cone;
-    cone.axis = glm::normalize(samples[samples.size() / 2]);
-    double chord = 0;
-    for (const glm::dvec3& direction : samples) chord = std::max(chord, glm::length(direction - cone.axis));
+    cone.axis = glm::normalize(samples[middleSample]);
+    double squaredChord = 0;
+    setFarthest(samples, cone.axis, squaredChord);
     // Uses the chord, because the cosine of a small angle loses all digits.
-    cone.halfAngleRad = 2 * std::asin(std::min(1.0, (chord + margin) / 2));
+    cone.halfAngleRad = 2 * std::asin(std::min(1.0, (std::sqrt(squaredChord) + margin) / 2));
     return cone;
 }
 
@@ -107,13 +170,11 @@ ChunkDirections chunkDirections(const ChunkId& id) {
     ChunkDirections directions;
     directions.axes = localAxes(samples);
     for (int a = 0; a < 3; ++a) {
-        Range range;
-        for (const glm::dvec3& direction : samples) {
-            range.add(glm::dot(directions.axes[static_cast<std::size_t>(a)], direction));
-        }
-        directions.low[a] = range.low - margin;
+        double low = 0, high = 0;
+        setRange(samples, directions.axes[static_cast<std::size_t>(a)], low, high);
+        directions.low[a] = low - margin;
         // No unit vector extends beyond 1 along an axis, so the top of the box needs no margin.
-        directions.high[a] = std::min(range.high + margin, 1 + boxRounding);
+        directions.high[a] = std::min(high + margin, 1 + boxRounding);
     }
     directions.cone = coneOf(samples, margin);
     return directions;
