@@ -69,7 +69,8 @@ BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& col
                      const BenchOptions& options);
 // (c) Measures selection, per visited node and per frame.
 BenchRows benchSelection(const BenchPlanet& planet, const BenchOptions& options);
-// (d) Measures paging in the blocks of a view against reading and decoding the same blocks in a loop.
+// (d) Measures paging in the blocks of a view, with one loader and with two, against reading and decoding the same blocks in a
+// loop, and measures a loop that keeps them.
 BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options);
 // (e) Measures baking on one thread against reading the source's samples and packing them with zstd -1.
 BenchRows benchBake(const planet::HeightSource& source, int faceSize, const BenchOptions& options,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <memory>
@@ -203,12 +204,13 @@ Result<AtlasOutcome> surveyOnTerminal(const AtlasRequest& request) {
     });
 }
 
-// There is nothing to continue in a survey that is finished.
+// There is nothing to continue in a survey that is finished. An empty file only keeps its name.
 Result<void> checkUnfinished(const AtlasOptions& options) {
     std::error_code status;
     const std::filesystem::path unfinished = planet::unfinishedAtlas(options.output);
-    const bool isFinished = options.resumes && std::filesystem::exists(options.output, status) &&
-                            !std::filesystem::exists(unfinished, status);
+    const std::uintmax_t bytes = std::filesystem::file_size(options.output, status);
+    const bool isFinished =
+        options.resumes && !status && bytes > 0 && !std::filesystem::exists(unfinished, status);
     if (!isFinished) return {};
     return planet::badInput(fmt::format("{}: is finished; expected an unfinished survey, {}",
                                         options.output.string(), unfinished.string()));

@@ -116,7 +116,12 @@ TEST_F(AtlasCommand, ResumesOnlyTheSameSurvey) {
     const Ran resumed = atlas(small + "-o part.atlas --resume");
     EXPECT_EQ(resumed.exitCode, 0) << resumed.errors;
     EXPECT_EQ(file("part.atlas"), whole);
-    EXPECT_EQ(atlas(small + "-o part.atlas --resume").exitCode, 2);
+    const Ran again = atlas(small + "-o part.atlas --resume");
+    EXPECT_EQ(again.exitCode, 2);
+    EXPECT_THAT(again.errors, HasSubstr("part.atlas: is finished"));
+    std::ofstream(folder.path() / "empty.atlas");
+    EXPECT_EQ(atlas(small + "-o empty.atlas --resume").exitCode, 0);
+    EXPECT_EQ(file("empty.atlas"), whole);
 }
 
 TEST_F(AtlasCommand, BadInputIsNamed) {

@@ -65,12 +65,17 @@ void buttons(const EditorView& view, Commands& commands) {
                "show how the picture loads again."))
         commands.push_back(DropAll{});
     const planet::PagingCounters& p = view.frames.stats.paging;
-    if (p.failedPermanently() + p.awaitingRetry() == 0) return;
-    ImGui::PushStyleColor(ImGuiCol_Text, p.failedPermanently() > 0 ? palette().bad : palette().warning);
+    // It is there without failures too, because otherwise the controls below would move under the pointer.
+    const std::uint32_t failed = p.failedPermanently() + p.awaitingRetry();
+    ImGui::PushStyleColor(ImGuiCol_Text, p.failedPermanently() > 0 ? palette().bad
+                                         : failed > 0              ? palette().warning
+                                                                   : palette().text);
+    beginGrey(failed == 0, "No block has failed.");
     const std::string label =
-        fmt::format("Retry {} failed###retry", p.failedPermanently() + p.awaitingRetry());
+        failed > 0 ? fmt::format("Retry {} failed###retry", failed) : "Retry failed###retry";
     const bool retry = ImGui::Button(label.c_str());
     noteItem("Retry failed");
+    endGrey();
     if (retry) commands.push_back(RetryFailed{});
     ImGui::PopStyleColor();
     tooltip(
@@ -268,6 +273,12 @@ void prefetchSection(const SettingControls& control, PagingOptions& paging,
 
 void badDisk(const SettingControls& control, PagingOptions& paging) {
     planet::BadDiskSettings& disk = paging.badDisk;
+    control(disk.latencyMs);
+    control(disk.bandwidthMBs, {.format = disk.bandwidthMBs > 0 ? "" : "unlimited"});
+    control(disk.failureRate);
+    control(disk.shuffledOrder);
+    control(disk.seed);
+    // Below the sliders, which would otherwise move under the pointer.
     if (isBad(disk)) {
         wrappedText(fmt::format("Injecting I/O faults: {}.", badDiskText(disk)), palette().warning);
         if (button("Off", "Turns all fault injection off. The seed is kept.")) {
@@ -276,11 +287,6 @@ void badDisk(const SettingControls& control, PagingOptions& paging) {
             disk.seed = seed;
         }
     }
-    control(disk.latencyMs);
-    control(disk.bandwidthMBs, {.format = disk.bandwidthMBs > 0 ? "" : "unlimited"});
-    control(disk.failureRate);
-    control(disk.shuffledOrder);
-    control(disk.seed);
     const Field& field = control.of(paging.simulated);
     const auto tip = [&] { return settingTip(field); };
     int time = paging.simulated ? 1 : 0;
