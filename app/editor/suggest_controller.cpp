@@ -45,6 +45,8 @@ void startSuggest(SuggestController& controller, const ui::StartSuggest& start, 
                   Notices& notices) {
     const OpenPlanet* const open = shownPlanet(context.session);
     if (!open || controller.job) return;
+    Result<SweptFiles> bakes = sweptFilesOf(*open, start.chunkSizes);
+    if (!bakes) return tellError(notices, {"The search cannot start", bakes.error().message, ""});
     controller.outcome.reset();
     controller.trials.clear();
     controller.problem.clear();
@@ -53,14 +55,8 @@ void startSuggest(SuggestController& controller, const ui::StartSuggest& start, 
     controller.chunkSize = planet::chunkSize(open->scene.planet->tree().shape);
     SuggestRequest request;
     request.file = open->data.chunkFile;
+    request.bakes = std::move(*bakes);
     request.sourceSettings = open->baked.sourceSettings;
-    if (Result<SweptFiles> bakes = sweptFilesOf(*open, start.chunkSizes)) {
-        request.bakes = std::move(*bakes);
-    } else {
-        controller.problem = bakes.error().message;
-        notices.log->error("{}", controller.problem);
-        return;
-    }
     request.colourImage = open->data.colourImage;
     request.budget = start.budget;
     request.flights = start.flights;
@@ -81,12 +77,22 @@ void applySuggest(const SuggestController& controller, const SuggestContext& con
     const OpenPlanet* const open = shownPlanet(context.session);
     if (!controller.outcome || !open) return;
     if (!mayChange("Settings", context.replaying, notices.log)) return;
+    const bool needsOtherFile = open->data.chunkFile != controller.outcome->file;
+    if (needsOtherFile && context.session.bake) {
+        return tellError(notices,
+                         {"The suggestion was not applied",
+                          "A bake is running, and its chunks of another size cannot be opened meanwhile",
+                          "Apply it again when the bake has ended."});
+    }
     const ViewSettings& now = context.settings.settings.view;
     ViewSettings wanted = settingsToApply(now, *controller.outcome);
     if (!(wanted == now)) replaceView(context.settings, std::move(wanted), "suggested settings");
-    if (open->data.chunkFile == controller.outcome->file) return;
+    if (!needsOtherFile) return;
     openSwept(controller.request.bakes, controller.request.sourceSettings,
               controller.outcome->found.best.candidate.chunkSize, context.session, now, notices.log);
+    // The planet is the same, so its regions stay.
+    if (const OpenPlanet* const opened = shownPlanet(context.session))
+        context.settings.regions.planet = opened->data.source;
 }
 
 // Returns the report's file. The name of the report is taken first, so that nothing is overwritten.
@@ -155,10 +161,13 @@ ViewSettings settingsToApply(const ViewSettings& now, const SuggestOutcome& outc
     view.budget = outcome.settings.budget;
     const SuggestCandidate& candidate = outcome.found.best.candidate;
     if (candidate.regions.empty()) return view;
-    // Regions that were applied before are not added twice.
+    // Regions that were applied before, and perhaps renamed, are not added twice.
     std::vector<planet::Region> own = now.regions.all();
-    std::erase_if(own, [&](const planet::Region& one) {
-        return std::ranges::find(candidate.regions, one) != candidate.regions.end();
+    std::erase_if(own, [&](planet::Region one) {
+        return std::ranges::any_of(candidate.regions, [&](const planet::Region& suggested) {
+            one.name = suggested.name;
+            return one == suggested;
+        });
     });
     std::vector<planet::Region> suggested = candidate.regions;
     for (planet::Region& region : suggested) {

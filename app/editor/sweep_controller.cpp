@@ -38,10 +38,10 @@ Result<SweptFile> sweptFileOf(const OpenPlanet& open, int chunkSize) {
     const int own = planet::chunkSize(open.scene.planet->tree().shape);
     if (!planet::heightSourceExists(open.baked.source)) {
         if (chunkSize == own) return SweptFile{own, open.data.chunkFile, false, open.baked.settings};
-        return planet::badInput(
-            fmt::format("{}: its source is missing, so only its own chunk size of {} can be swept; open the "
-                        "source instead",
-                        open.data.chunkFile.string(), own));
+        return planet::badInput(fmt::format(
+            "{}: its source is missing, so only its own chunk size of {} can be measured; open the "
+            "source instead",
+            open.data.chunkFile.string(), own));
     }
     planet::BakeSettings settings = bakeSettingsOf(open);
     settings.chunkSize = chunkSize;

@@ -49,7 +49,8 @@ planet::GovernorSettings governorSettingsOf(const ViewSettings& settings) {
 }
 
 planet::GovernorSample governorSampleOf(const FrameStats& frame, const planet::Planet& planet,
-                                        std::uint64_t bytesRead, double elapsedS) {
+                                        const planet::LodSettings& lod, std::uint64_t bytesRead,
+                                        double elapsedS) {
     const planet::Selection& selection = planet.selection();
     const planet::PlanetShape& shape = planet.tree().shape;
     const std::size_t chunkBytes = planet::chunkBytesCpu(shape) + planet::chunkBytesGpu(shape);
@@ -62,7 +63,7 @@ planet::GovernorSample governorSampleOf(const FrameStats& frame, const planet::P
     sample.tauPx = frame.tauPx;
     sample.elapsedS = elapsedS;
     sample.exponent = planet::exponentOf(selection, frame.tauPx);
-    sample.merges = planet::mergeCurveOf(selection);
+    sample.merges = planet::mergeCurveOf(selection, lod.hysteresis);
     const std::uint32_t drawn = std::max(frame.selection.drawn, 1u);
     sample.waitingShare = static_cast<double>(frame.selection.waiting) / drawn;
     return sample;
@@ -84,7 +85,7 @@ void governTau(Governing& governing, const FrameStats* frame, const planet::Plan
     const std::uint64_t bytesRead = planet.paging().bytesRead();
     const std::uint64_t before = governing.knowsBytes ? governing.bytesRead : bytesRead;
     const planet::GovernorSample sample =
-        governorSampleOf(*frame, planet, bytesRead - std::min(before, bytesRead), elapsedS);
+        governorSampleOf(*frame, planet, settings.lod, bytesRead - std::min(before, bytesRead), elapsedS);
     governing.bytesRead = bytesRead;
     governing.knowsBytes = true;
     const planet::Governed governed = planet::govern(governing.state, sample, governorSettingsOf(settings));
@@ -105,8 +106,9 @@ void forgetCosts(Governing& governing) {
 }
 
 ViewSettings ungoverned(const Governing& governing, ViewSettings settings) {
-    if (governing.ownTauPx) settings.lod.tauPx = *governing.ownTauPx;
-    if (governing.ownFadeS) settings.lod.fadeS = *governing.ownFadeS;
+    planet::LodSettings& lod = settings.lod;
+    if (governing.ownTauPx && lod.tauPx == governing.tauPx) lod.tauPx = *governing.ownTauPx;
+    if (governing.ownFadeS && lod.fadeS == governing.fadeS) lod.fadeS = *governing.ownFadeS;
     return settings;
 }
 

@@ -18,7 +18,7 @@ struct Governing {
     planet::GovernorState state;
     std::optional<double> ownTauPx;  // the user's τ, which returns when no budget is on; unset while none is
     double tauPx = 0;                // chosen for the last frame; another one in the settings is the user's
-    std::optional<double> ownFadeS;  // likewise the time of a fade, which is shorter after a large rise of τ
+    std::optional<double> ownFadeS;  // likewise the time of a fade, which is shorter while many chunks merge
     double fadeS = 0;
     BudgetUse use;
     std::uint64_t bytesRead = 0;  // since the planet was opened, at the last sample
@@ -28,10 +28,11 @@ struct Governing {
 
 planet::GovernorSettings governorSettingsOf(const ViewSettings& settings);
 
-// Returns what a frame cost. The planet's last step must be that of the frame. bytesRead and elapsedS: since the sample
-// before.
+// Returns what a frame cost. The planet's last step must be that of the frame, with these settings. bytesRead and elapsedS:
+// since the sample before.
 planet::GovernorSample governorSampleOf(const FrameStats& frame, const planet::Planet& planet,
-                                        std::uint64_t bytesRead, double elapsedS);
+                                        const planet::LodSettings& lod, std::uint64_t bytesRead,
+                                        double elapsedS);
 
 // Sets τ and the time of a fade in settings.lod for the next frame if a budget is on, and returns those of the user if none is
 // any more. frame: the last one; null before the first. elapsedS: by which the next frame advances.
@@ -39,7 +40,7 @@ void governTau(Governing& governing, const FrameStats* frame, const planet::Plan
                ViewSettings& settings);
 // Forgets the costs, for another planet, but not what the user has set.
 void forgetCosts(Governing& governing);
-// Returns settings with τ and the time of a fade as the user has set them.
+// Returns settings with τ and the time of a fade as the user has set them, where they are still those of the governor.
 ViewSettings ungoverned(const Governing& governing, ViewSettings settings);
 
 // τ may still change although nothing else does.

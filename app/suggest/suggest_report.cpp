@@ -236,8 +236,8 @@ std::string chunkSizeText(const SuggestOutcome& outcome) {
         outcome.found.trials, [](const SuggestTrial& trial) { return trial.candidate.chunkSize > 0; });
     if (chunkSize > 0)
         return fmt::format(
-            "The suggestion has chunks of {0} and needs another bake, with --chunk-size {0}; it was measured "
-            "with {1}.",
+            "The suggestion has chunks of {0} vertices per side, as in {1}, which was baked with "
+            "--chunk-size {0}.",
             chunkSize, outcome.file.string());
     if (varies) return "Other chunk sizes were measured too, and are not better.";
     return "The chunk size was not varied, because another one needs another bake.";

@@ -134,11 +134,12 @@ Result<std::vector<SuggestLeg>> legsOf(const SuggestRequest& request, const plan
     };
     const double radiusM = chunks.info().shape.radiusM;
     for (const fs::path& file : request.flights) {
-        if (request.viewsOfRecordings && file.extension() == ".flight") {
+        if (request.viewsOfRecordings && isFlightRecord(file)) {
             const Result<FlightRecord> record = loadFlightRecord(file);
             Result<SuggestLeg> leg =
                 record ? recordedLeg(file, *record, chunks) : tl::unexpected(record.error());
             if (leg) {
+                if (leg->name.empty()) leg->name = flightName(file);
                 leg->name += " (as recorded)";
                 add(std::move(*leg), file);
                 continue;

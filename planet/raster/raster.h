@@ -48,8 +48,9 @@ public:
     virtual Result<std::vector<float>> readBlock(int blockX, int blockY) const = 0;
     // Returns whether the file is known to store nothing for a block, whose samples are all missing then.
     virtual bool isEmpty(int /*blockX*/, int /*blockY*/) const { return false; }
-    // Returns whether the first block that is read of a row of blocks reads them all, while other threads wait.
-    virtual bool readsWholeRows() const { return false; }
+    // Returns of how many rows of blocks the file is read when the first block in them is asked for. Other threads that ask
+    // for one of these blocks wait meanwhile. 0: each block is read by itself.
+    virtual int rowsReadTogether() const { return 0; }
     // Returns how many samples of the file were read so far, if those are not the samples of the blocks that were read.
     virtual std::optional<std::uint64_t> samplesRead() const { return std::nullopt; }
 

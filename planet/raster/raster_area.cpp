@@ -1,5 +1,7 @@
 #include "planet/raster/raster_area.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <map>
 #include <mutex>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -60,13 +61,38 @@ std::vector<SurveyBlock> blocksOf(const RasterMosaic& mosaic) {
     return blocks;
 }
 
-// Returns the indices of blocks in an order in which threads do not wait for each other: first those that read whole rows.
-std::vector<std::size_t> readingOrderOf(const std::vector<SurveyBlock>& blocks, const RasterMosaic& mosaic) {
-    std::vector<std::size_t> order(blocks.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
-        return blocks[i].x == 0 && mosaic.tiles()[blocks[i].tile].raster->readsWholeRows();
-    });
+// Returns the indices of the blocks of a part, in the order in which to read them. Threads that ask for blocks of the same
+// rows would wait for one another. So of as many groups of such rows as there are threads, first one block each is read.
+std::vector<std::size_t> readingOrderOf(const std::vector<SurveyBlock>& blocks, const RasterMosaic& mosaic,
+                                        const SurveyShare& part) {
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    std::vector<std::size_t> order, first, others;
+    std::pair<std::size_t, int> group{};  // tile and row of the last block that was added
+    const auto flush = [&] {
+        order.insert(order.end(), first.begin(), first.end());
+        order.insert(order.end(), others.begin(), others.end());
+        first.clear();
+        others.clear();
+    };
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (!part.reads(i)) continue;
+        const SurveyBlock& block = blocks[i];
+        const int rows = mosaic.tiles()[block.tile].raster->rowsReadTogether();
+        if (rows == 0) {
+            flush();
+            order.push_back(i);
+            continue;
+        }
+        const std::pair own{block.tile, block.y / rows};
+        if (!first.empty() && own == group) {
+            others.push_back(i);
+            continue;
+        }
+        if (first.size() == threads) flush();
+        first.push_back(i);
+        group = own;
+    }
+    flush();
     return order;
 }
 
@@ -323,14 +349,13 @@ struct PartSurvey {
 // Reads the blocks of a part of so many.
 PartSurvey surveyPart(const RasterArea& area, const SurveyShare& part, const std::stop_token& stop) {
     const std::vector<SurveyBlock> blocks = blocksOf(area.mosaic);
-    const std::vector<std::size_t> order = readingOrderOf(blocks, area.mosaic);
+    const std::vector<std::size_t> order = readingOrderOf(blocks, area.mosaic, part);
     PartSurvey survey;
     std::size_t mostUnsorted = std::size_t{1} << 16;
     std::mutex mutex;
     parallelFor(order.size(), [&](std::size_t turn) {
-        const std::size_t i = order[turn];
-        if (!part.reads(i) || stop.stop_requested()) return;
-        const auto& [tileIndex, x, y] = blocks[i];
+        if (stop.stop_requested()) return;
+        const auto& [tileIndex, x, y] = blocks[order[turn]];
         const RasterMosaic::Tile& tile = area.mosaic.tiles()[tileIndex];
         const RasterLayout& layout = tile.raster->layout();
         {

@@ -88,7 +88,7 @@ public:
         return raster_->isEmpty(0, blockY * layout_.blockHeight / bandRows_);
     }
 
-    bool readsWholeRows() const override { return true; }
+    int rowsReadTogether() const override { return std::max(bandRows_ / layout_.blockHeight, 1); }
 
     std::optional<std::uint64_t> samplesRead() const override { return samplesRead_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -26,7 +27,8 @@ constexpr double priorWeight = 0.01;  // of the expected elasticity, as a sum of
 // large step, and the next one could begin only when this one had been measured.
 constexpr double expectedAtRise = 0.9;
 constexpr double leastChange = 0.05;  // of ln triangles that tells elasticity
-constexpr double ownChange = 0.15;    // of the ln of a time
+// A time changes by up to twice the change of the triangles. If ln time changes by this more, the change is not theirs.
+constexpr double ownChange = 0.15;
 // A larger change counts as one of this size, because it tells the mean elasticity between two far ends, and not that
 // near the budget.
 constexpr double mostChange = 0.1;
@@ -103,7 +105,7 @@ void followFade(GovernorState& state, double x, double elapsedS, const Rules& ru
     const double camera = (x - state.mergingLnTau) * newestShare(elapsedS, backlashS);
     const double merging =
         state.frames == 0 ? x : std::clamp(state.mergingLnTau + camera, x - rules.backlash, x);
-    // Parts are counted in the time of a fade that does not catch up.
+    // The parts together are as long as an ordinary fade. Fades that catch up make time count more.
     const double fadedS = elapsedS * state.fadeSpeed;
     const double partS = rules.fadeS / static_cast<double>(GovernorState::fadeParts - 1);
     if (state.frames == 0 || partS <= 0) {
@@ -191,7 +193,7 @@ void noteElasticity(GovernorState::Elasticity& known, double lnTriangles, double
     known.sumXY *= kept;
     const double x = lnTriangles - known.lnTriangles;
     if (known.known && std::abs(x) < leastChange) return;
-    // A larger change of the time has another reason, and one that is far larger tells nothing.
+    // A larger change of the time has another reason. One that is larger by far is left out.
     const double most = 2 * std::abs(x);
     const double change = lnCost - known.lnCost;
     if (known.known && std::abs(change) < most + ownChange) {
@@ -217,12 +219,16 @@ struct Law {
     double riseElasticity, fallElasticity;
     double leastX, mostX;
     double sinceThenLn;  // by how much ln triangles can have fallen since the cost was that, <= 0
+    bool isLatest;       // not a mean over half a second, in which the triangles have changed
 };
 
 Law lawOf(GovernorState& state, GovernorBudget budget, double cost, const GovernorSample& sample,
           double elapsedS, const Rules& rules) {
-    Law law{exponentIn(sample, rules), 1, 1, state.lnTau[0], state.lnTau[0], 0};
-    if (budget == GovernorBudget::Reading) law.leastX = law.mostX = state.meanLnTau;
+    Law law{exponentIn(sample, rules), 1, 1, state.lnTau[0], state.lnTau[0], 0, true};
+    if (budget == GovernorBudget::Reading) {
+        law.leastX = law.mostX = state.meanLnTau;
+        law.isLatest = false;
+    }
     if (!isTime(budget)) return law;
     // A median of three is one frame late.
     const std::size_t late = (budget == GovernorBudget::GpuTime ? rules.gpuFramesLate : 0) + 1;
@@ -252,7 +258,7 @@ double moveFor(double lnFactor, double elasticity, const Law& law) {
     return -lnShareFor(lnFactor, elasticity) / law.exponent;
 }
 
-// Returns the ln τ at which so large a share of the triangles is left; x: of the selection.
+// Returns the smallest ln τ at which at most exp(lnShare) of the triangles are left. x: ln τ of the selection.
 double lnTauLeaving(double lnShare, const MergeCurve& merges, double x) {
     constexpr double step = std::numbers::ln2 / MergeCurve::perDoubling;
     const double first = x - std::numbers::ln2;
@@ -266,31 +272,31 @@ double lnTauLeaving(double lnShare, const MergeCurve& merges, double x) {
     return first + step * static_cast<double>(MergeCurve::count - 1);
 }
 
-// What is nearer than that needs no curve, unless it is already on its way.
-constexpr double lnLargeShare = -0.4, lnOnItsWay = -0.1, lnCaughtUp = -0.02;
+// A change by less than this share needs no curve.
+constexpr double lnLargeShare = -0.4;
 
 // Returns whether many chunks will merge even if τ stays.
-bool isOnItsWay(const GovernorState& state, const GovernorSample& sample, const Rules& rules) {
-    constexpr auto atTau = static_cast<double>(MergeCurve::perDoubling);
-    const double place = std::floor(atTau - rules.backlash / std::numbers::ln2 * MergeCurve::perDoubling);
+bool isOnItsWay(const GovernorState& state, const GovernorSample& sample) {
+    constexpr double lnMany = -0.1;
+    constexpr double lnCaughtUp =
+        -0.02;  // fades that have begun to catch up go on until less than this is left
     return sample.merges.isKnown &&
-           static_cast<double>(sample.merges.lnShare[static_cast<std::size_t>(std::max(place, 0.0))]) <
-               (state.fadeSpeed > 1 ? lnCaughtUp : lnOnItsWay);
+           static_cast<double>(sample.merges.lnShareToCome) < (state.fadeSpeed > 1 ? lnCaughtUp : lnMany);
 }
 
 // Returns how many times as fast as ordinary ones fades should be.
 double fadeSpeedFor(const GovernorState& state, const GovernorSample& sample, const Rules& rules) {
-    if (!isOnItsWay(state, sample, rules)) return 1;
+    if (!isOnItsWay(state, sample)) return 1;
     // Each level takes a frame or two more than its fade. The last levels keep the speed of the first.
     const int levels = sample.merges.levels;
     return std::clamp(std::max(state.fadeSpeed, levels > 1 ? levels + 1.0 : 1.0), 1.0, rules.mostFadeSpeed);
 }
 
-// Returns the ln τ that changes a cost by the factor exp(lnFactor), for a rise.
+// Returns the ln τ that changes a cost by the factor exp(lnFactor), for a rise. x: ln τ of the selection.
 double riseTo(double lnFactor, const GovernorState& state, const Law& law, const GovernorSample& sample,
-              double x, const Rules& rules) {
+              double x) {
     const double lnShare = lnShareFor(lnFactor, law.riseElasticity) - law.sinceThenLn;
-    if (sample.merges.isKnown && (lnShare < lnLargeShare || isOnItsWay(state, sample, rules)))
+    if (law.isLatest && sample.merges.isKnown && (lnShare < lnLargeShare || isOnItsWay(state, sample)))
         return lnTauLeaving(lnShare, sample.merges, x);
     return law.leastX + moveFor(lnFactor, law.riseElasticity, law);
 }
@@ -308,8 +314,8 @@ Demand demandOf(GovernorState& state, GovernorBudget budget, double cost, double
     // Each chunk that waits becomes four.
     const double waiting = std::log1p(3 * within(sample.waitingShare, 0, 0, 1));
     return {
-        riseTo(rules.lnCeiling - lnUse - foresightS * growth, state, law, sample, x, rules),
-        riseTo(rules.lnMiddle - lnUse - creepForesightS * growth, state, law, sample, x, rules),
+        riseTo(rules.lnCeiling - lnUse - foresightS * growth, state, law, sample, x),
+        riseTo(rules.lnMiddle - lnUse - creepForesightS * growth, state, law, sample, x),
         law.mostX + moveFor(rules.lnFloor - lnUse - foresightS * growth - waiting, law.fallElasticity, law)};
 }
 
@@ -383,38 +389,6 @@ double nextX(double x, double merging, const Demands& demands, const GovernorSta
     return x;
 }
 
-// Calls found(split, visible children, levels to merge) for each split, children first. The levels are those between its
-// drawn chunks and the highest of its splits, itself included, that its τ would merge.
-template <class Found>
-void forEachSplit(const Selection& selection, const Found& found) {
-    struct Open {
-        std::size_t split = 0;
-        int childrenAhead = quadrantCount;
-        int visible = 0;
-        int levels = 0;  // the most below
-    };
-    std::vector<Open> open;  // from a root to the node before
-    const auto close = [&] {
-        const Open done = open.back();
-        open.pop_back();
-        const ChildrenRequest& split = selection.splits[done.split];
-        const int levels = split.priority <= 1 ? done.levels + 1 : 0;
-        if (!open.empty()) open.back().levels = std::max(open.back().levels, levels);
-        found(split, done.visible, levels);
-    };
-    std::size_t next = 0;
-    for (const VisitedNode& node : selection.touched) {
-        while (!open.empty() && open.back().childrenAhead == 0) close();
-        const bool isSplit = node.fate == NodeFate::Split && next < selection.splits.size();
-        if (!open.empty()) {
-            --open.back().childrenAhead;
-            open.back().visible += isSplit || node.fate == NodeFate::Drawn;
-        }
-        if (isSplit) open.push_back({next++});
-    }
-    while (!open.empty()) close();
-}
-
 }  // namespace
 
 double exponentOf(const Selection& selection, double tauPx) {
@@ -428,24 +402,58 @@ double exponentOf(const Selection& selection, double tauPx) {
     return -std::log2(1 - 0.75 * static_cast<double>(merges) / drawn);
 }
 
-MergeCurve mergeCurveOf(const Selection& selection) {
+MergeCurve mergeCurveOf(const Selection& selection, double lodHysteresis) {
     MergeCurve curve;
     if (selection.draw.empty() || selection.splits.empty()) return curve;
     curve.isKnown = true;
+    const double mergesAt = 1 - lodHysteresis;
+    // A split whose children are being visited.
+    struct Open {
+        const ChildrenRequest* split = nullptr;
+        int childrenAhead = quadrantCount;
+        int visible = 0;
+        int levels = 0;  // the most below that will merge
+    };
+    std::vector<Open> open;                       // from a root to the node before
     std::array<int, MergeCurve::count> merged{};  // chunks fewer at each τ
-    forEachSplit(selection, [&](const ChildrenRequest& split, int visible, int levels) {
-        curve.levels = std::max(curve.levels, levels);
-        const double doublings = 1 + std::log2(std::max(static_cast<double>(split.priority), 1e-9));
+    int coming = 0;                               // chunks fewer if τ stays
+    const auto close = [&] {
+        const Open done = open.back();
+        open.pop_back();
+        if (done.split->isBelowLeastLevel) return;
+        const int fewer = std::max(done.visible - 1, 0);
+        const auto overTau = static_cast<double>(done.split->priority);
+        const double doublings = 1 + std::log2(std::max(overTau, 1e-9));
         const double place = std::ceil(std::max(doublings, 0.0) * MergeCurve::perDoubling);
-        if (place < static_cast<double>(MergeCurve::count))
-            merged[static_cast<std::size_t>(place)] += std::max(visible - 1, 0);
-    });
-    const auto drawn = static_cast<double>(selection.draw.size());
-    double left = drawn;
-    for (std::size_t i = 0; i < MergeCurve::count; ++i) {
-        left -= merged[i];
-        curve.lnShare[i] = static_cast<float>(std::log(std::max(left / drawn, 1e-3)));
+        if (place < static_cast<double>(MergeCurve::count)) merged[static_cast<std::size_t>(place)] += fewer;
+        if (overTau > mergesAt) return;
+        coming += fewer;
+        curve.levels = std::max(curve.levels, done.levels + 1);
+        if (!open.empty()) open.back().levels = std::max(open.back().levels, done.levels + 1);
+    };
+    auto next = selection.splits.begin();
+    for (const VisitedNode& node : selection.touched) {
+        while (!open.empty() && open.back().childrenAhead == 0) close();
+        if (!open.empty()) {
+            --open.back().childrenAhead;
+            open.back().visible += node.fate == NodeFate::Drawn || node.fate == NodeFate::Split;
+        }
+        if (node.fate != NodeFate::Split) continue;
+        assert(next != selection.splits.end() && next->parent == node.node);
+        open.push_back({&*next++});
     }
+    while (!open.empty()) close();
+
+    const auto drawn = static_cast<double>(selection.draw.size());
+    const auto lnShareWithout = [&](int chunks) {
+        return static_cast<float>(std::log(std::max(1 - chunks / drawn, 1e-3)));
+    };
+    int fewer = 0;
+    for (std::size_t i = 0; i < MergeCurve::count; ++i) {
+        fewer += merged[i];
+        curve.lnShare[i] = lnShareWithout(fewer);
+    }
+    curve.lnShareToCome = lnShareWithout(coming);
     return curve;
 }
 
@@ -493,8 +501,8 @@ Governed govern(const GovernorState& before, const GovernorSample& sample, const
     if (demands.largest.ceiling > rules.mostX) result.limit = GovernorLimit::MostTau;
     if (demands.largest.floor < rules.leastX && next - rules.leastX < atLimit)
         result.limit = GovernorLimit::LeastTau;
-    // Chunks that merge late after a rise must not split again at once.
-    const bool rises = next > x || isOnItsWay(state, sample, rules);
+    // Chunks that are still merging must not split again at once.
+    const bool rises = next > x || isOnItsWay(state, sample);
     state.sinceRiseS = rises ? 0 : std::min(state.sinceRiseS + elapsedS, longWayS);
     state.sinceFallS = next < x ? 0 : std::min(state.sinceFallS + elapsedS, longWayS);
     // A τ that stays keeps its bits.

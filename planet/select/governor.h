@@ -1,7 +1,7 @@
 // The governor: moves the tolerance τ so that frames keep to a budget. A pure function of what the last frame cost and of
 // the governor's own memory, without a clock: the same samples give the same τ, bit for bit. Any thread.
 //
-//     planet::GovernorSettings settings{.budget = {.gpuMs = 8, .triangles = 2e6}};
+//     planet::GovernorSettings settings{.budget = {.gpuMs = 8, .triangles = 2e6}, .fadeS = lod.fadeS};
 //     planet::GovernorState governor;
 //     for (;;) {
 //         planet->step(view, lod, upload);  // and draw
@@ -47,9 +47,9 @@
 //
 // If several budgets are on, the one that needs the largest τ binds.
 //
-// Fades catch up: while many chunks have n > 1 levels to merge, each level fades in fadeS / (n + 1). So after a step of the cost
+// Fades catch up: while many chunks have n > 1 levels to merge, for whatever reason, each level fades in fadeS / (n + 1). So after a step of the cost
 // that needs several levels, the cost is back within its budget after the age of its measurement and about one fadeS. Whoever
-// draws must take Governed::fadeS, or say in GovernorSettings::leastFadeS that fades keep their time.
+// draws must take Governed::fadeS, or set GovernorSettings::leastFadeS to at least fadeS.
 #pragma once
 
 #include <array>
@@ -96,17 +96,18 @@ struct GovernorSettings {
     int gpuFramesLate = 4;  // age of GPU times, frames, [0, 6]; if they are older, τ overshoots
 };
 
-// Which share of the drawn triangles is left when chunks have merged with a larger τ.
+// The share of the drawn triangles that is left after chunks have merged, as a function of τ.
 struct MergeCurve {
     static constexpr std::size_t perDoubling = 4;
     static constexpr std::size_t count = 8 * perDoubling + 1;
     // ln of the share, by τ: from half the τ of the selection to 128 times that. Not above 0, and never rising.
     std::array<float, count> lnShare{};
-    int levels = 0;  // the most between a drawn chunk and its ancestor that the τ of the selection would draw
+    float lnShareToCome = 0;  // ln of the share that is left when all has merged that will merge if τ stays
+    int levels = 0;           // the most levels by which these merges make a drawn chunk coarser
     bool isKnown = false;
 };
-// Reads it from the splits of a selection that was made with the τ of the sample. Morphs are not counted in.
-MergeCurve mergeCurveOf(const Selection& selection);
+// Reads the curve from the splits of a selection. lodHysteresis: LodSettings::hysteresis of the selection.
+MergeCurve mergeCurveOf(const Selection& selection, double lodHysteresis);
 
 struct GovernorSample {
     GovernorCosts cost{};     // of the last frame

@@ -274,7 +274,7 @@ void visit(const Frame& frame, NodeIndex index, OpenTests open, const Above& abo
     const bool wantsToSplit = wantsSplit(frame, seen, above);
     const bool merging = !wantsToSplit && mergeMustWait(frame, index);
     if (!wantsToSplit && !merging) return draw(frame, seen, above, false, place, walk);
-    const ChildrenRequest wanted{index, node.id, priorityOf(frame, seen)};
+    const ChildrenRequest wanted{index, node.id, priorityOf(frame, seen), seen.limit == RegionLimit::Least};
     if (node.childrenState != ChildrenState::Resident) {
         draw(frame, seen, above, false, place, walk);
         ++out.counters.waiting;

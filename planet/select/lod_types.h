@@ -106,6 +106,7 @@ struct ChildrenRequest {
     // ε / τ of the parent: by how much it exceeds the tolerance; larger first. In a region, τ is that of the region, and
     // below its least level the priority is at least leastLevelPriority.
     float priority = 0;
+    bool isBelowLeastLevel = false;  // a region's least level demands it, whatever its error
 };
 
 struct SelectionCounters {

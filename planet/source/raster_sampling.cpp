@@ -376,29 +376,29 @@ GridRect tapsAround(const PlacesOnGrid& onGrid, std::span<const float> heights) 
 }
 
 // Four groups of four lanes. Passed by reference, because how it is passed by value depends on the processor.
-using Float16 = float __attribute__((vector_size(64)));
+using FourFloat4 = float __attribute__((vector_size(64)));
 
-PLANET_ALWAYS_INLINE void join(Float4 a, Float4 b, Float4 c, Float4 d, Float16& out) {
+PLANET_ALWAYS_INLINE void join(Float4 a, Float4 b, Float4 c, Float4 d, FourFloat4& out) {
     const auto first = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
     const auto second = __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7);
     out = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 
 PLANET_ALWAYS_INLINE void joinTaps(const std::array<const float*, 4>& from, std::int64_t offset,
-                                   Float16& out) {
+                                   FourFloat4& out) {
     join(loadFloat4(from[0] + offset), loadFloat4(from[1] + offset), loadFloat4(from[2] + offset),
          loadFloat4(from[3] + offset), out);
 }
 
 // Computes in each group the weights at one of four t.
-PLANET_ALWAYS_INLINE void weightsOfFour(const std::array<float, 4>& t, Float16& out) {
+PLANET_ALWAYS_INLINE void weightsOfFour(const std::array<float, 4>& t, FourFloat4& out) {
     using W = CatmullRomWeights;
-    Float16 cubic, square, linear, constant;
+    FourFloat4 cubic, square, linear, constant;
     join(W::cubic, W::cubic, W::cubic, W::cubic, cubic);
     join(W::square, W::square, W::square, W::square, square);
     join(W::linear, W::linear, W::linear, W::linear, linear);
     join(W::constant, W::constant, W::constant, W::constant, constant);
-    Float16 each;
+    FourFloat4 each;
     join(Float4{} + t[0], Float4{} + t[1], Float4{} + t[2], Float4{} + t[3], each);
     out = ((cubic * each + square) * each + linear) * each + constant;
 }
@@ -416,13 +416,13 @@ PLANET_ALWAYS_INLINE Float4 fourByFourOfFour(const RegionSamples& samples, const
         column[k] = static_cast<float>(onGrid.column[i + k] - static_cast<double>(firstColumn)) - 1;
         row[k] = static_cast<float>(onGrid.row[i + k] - static_cast<double>(firstRow)) - 1;
     }
-    Float16 across, down, taps;
+    FourFloat4 across, down, taps;
     weightsOfFour(column, across);
     weightsOfFour(row, down);
     const std::int64_t stride = samples.rect.columns;
     joinTaps(from, 0, taps);
-    Float16 sum = __builtin_shufflevector(down, down, 0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12) *
-                  (across * taps);
+    FourFloat4 sum = __builtin_shufflevector(down, down, 0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12) *
+                     (across * taps);
     joinTaps(from, stride, taps);
     sum += __builtin_shufflevector(down, down, 1, 1, 1, 1, 5, 5, 5, 5, 9, 9, 9, 9, 13, 13, 13, 13) *
            (across * taps);

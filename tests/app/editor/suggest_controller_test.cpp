@@ -2,13 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
+#include "app/editor/settings_controller.h"
+#include "app/session/notices.h"
+#include "app/session/session.h"
 #include "app/settings/view_settings.h"
 #include "app/suggest/suggest_meter.h"
 #include "app/suggest/suggest_run.h"
 #include "planet/tree/region.h"
+#include "tests/app/session_fixture.h"
+#include "ui/model/commands.h"
 
 namespace worldy {
 namespace {
@@ -82,6 +88,68 @@ TEST(SuggestController, applyingKeepsRegionsThatAreSwitchedOff) {
         EXPECT_EQ(applied.file, now.regions.file);
         EXPECT_EQ(settingsWith(now, {}).regions, now.regions);
     }
+}
+
+// A suggestion of chunks of 17 for a planet that was opened as a chunk file with chunks of 33.
+class AppliedSuggestion : public test::SessionTest {
+protected:
+    AppliedSuggestion() {
+        const auto file = bakeTo("planet.chk", {.faceSize = 65, .chunkSize = 33});
+        const planet::BakeSettings bake{.faceSize = 65, .chunkSize = 17};
+        const auto other = bakeTo("other.chk", bake);
+        session_ = sessionOf(file);
+        EXPECT_TRUE(advanceUntil(session_, [&] { return shownPlanet(session_) != nullptr; }));
+        followRegions(settings_, shownPlanet(session_)->data, notices_);
+        const std::vector regions = {planet::Region{.name = "mine"}};
+        regionList() = std::make_shared<const std::vector<planet::Region>>(regions);
+        controller_.request.file = file;
+        controller_.request.bakes = {folder_ / "slope.pgm", {{17, other, false, bake}}};
+        SuggestOutcome& outcome = controller_.outcome.emplace();
+        outcome.file = other;
+        outcome.found.best.candidate.chunkSize = 17;
+        outcome.settings.lod.tauPx = 5;
+    }
+
+    std::shared_ptr<const std::vector<planet::Region>>& regionList() {
+        return settings_.settings.view.regions.list;
+    }
+    void apply() { execute(controller_, ui::ApplySuggest{}, {session_, settings_, false}, notices_); }
+    int shownChunkSize() const { return planet::chunkSize(shownScene(session_)->planet->tree().shape); }
+
+    Session session_;
+    SettingsController settings_;
+    SuggestController controller_;
+    Notices notices_{log_};
+};
+
+TEST_F(AppliedSuggestion, opensItsChunksAndKeepsTheRegionsOfThePlanet) {
+    EXPECT_TRUE(suggestViewOf(controller_, shownPlanet(session_)).fitsPlanet);
+    apply();
+    EXPECT_EQ(shownChunkSize(), 17);
+    EXPECT_EQ(settings_.settings.view.lod.tauPx, 5);
+    followRegions(settings_, shownPlanet(session_)->data, notices_);
+    EXPECT_EQ(settings_.settings.view.regions.all().size(), 1u);
+    EXPECT_TRUE(suggestViewOf(controller_, shownPlanet(session_)).fitsPlanet);
+    EXPECT_EQ(notices_.message.title, "");
+}
+
+TEST_F(AppliedSuggestion, changesNothingWhileABakeRuns) {
+    session_.bake.emplace();
+    const ViewSettings before = settings_.settings.view;
+    apply();
+    EXPECT_EQ(shownChunkSize(), 33);
+    EXPECT_EQ(settings_.settings.view, before);
+    EXPECT_EQ(notices_.message.title, "The suggestion was not applied");
+    session_.bake.reset();
+}
+
+TEST_F(AppliedSuggestion, aSearchThatCannotStartLeavesTheLastResult) {
+    std::filesystem::remove(folder_ / "slope.pgm");
+    execute(controller_, ui::StartSuggest{.budget = {}, .chunkSizes = {17}}, {session_, settings_, false},
+            notices_);
+    EXPECT_FALSE(controller_.job);
+    EXPECT_TRUE(controller_.outcome);
+    EXPECT_EQ(notices_.message.title, "The search cannot start");
 }
 
 }  // namespace

@@ -59,24 +59,54 @@ TEST_F(GovernedTau, followsABudgetAndGivesTheUsersTauBack) {
     EXPECT_FALSE(governing_.use.isOn);
 }
 
-TEST_F(GovernedTau, shortensFadesAfterALargeRiseAndGivesTheUsersBack) {
-    settings_.lod.fadeS = 0.4;
-    settings_.lod.tauPx = 0.3;
-    ASSERT_TRUE(planet_->settle(planet::viewAt(10, 20), settings_.lod, planet::noUpload, planet::timeoutS));
-    settings_.budget.triangles = 1;
-    settings_.budget.mostTauPx = 20;
-    for (int i = 0; i < 3; ++i) frame(), govern();
-    EXPECT_LT(settings_.lod.fadeS, 0.4);
+// Loads a fine picture, which a budget of one triangle then makes coarse over several levels.
+class CatchingUp : public GovernedTau {
+protected:
+    void SetUp() override {
+        settings_.lod.fadeS = 0.4;
+        settings_.lod.tauPx = 0.3;
+        ASSERT_TRUE(
+            planet_->settle(planet::viewAt(10, 20), settings_.lod, planet::noUpload, planet::timeoutS));
+        settings_.budget.triangles = 1;
+        settings_.budget.mostTauPx = 20;
+        for (int i = 0; i < 3; ++i) frame(), govern();
+        ASSERT_LT(settings_.lod.fadeS, 0.4);
+    }
+};
+
+TEST_F(CatchingUp, shortensFadesUntilItIsDone) {
     EXPECT_EQ(ungoverned(governing_, settings_).lod.fadeS, 0.4);
     for (int i = 0; i < 120; ++i) frame(), govern();
     EXPECT_EQ(settings_.lod.fadeS, 0.4);
-    settings_.lod.fadeS = 0.3;
-    settings_.lod.morph = false;
-    frame(), govern();
-    EXPECT_EQ(settings_.lod.fadeS, 0.3);
+}
+
+TEST_F(CatchingUp, givesTheUsersFadeBackWhenTheBudgetIsTurnedOff) {
     settings_.budget.triangles = 0;
     govern();
-    EXPECT_EQ(settings_.lod.fadeS, 0.3);
+    EXPECT_EQ(settings_.lod.fadeS, 0.4);
+    EXPECT_EQ(settings_.lod.tauPx, 0.3);
+}
+
+TEST_F(CatchingUp, keepsTheUsersFadeForAnotherPlanet) {
+    forgetCosts(governing_);
+    EXPECT_EQ(ungoverned(governing_, settings_).lod.fadeS, 0.4);
+}
+
+TEST_F(CatchingUp, doesNotTouchFadesWithoutMorph) {
+    settings_.lod.morph = false;
+    for (int i = 0; i < 3; ++i) frame(), govern();
+    EXPECT_EQ(settings_.lod.fadeS, 0.4);
+}
+
+// A preset or a suggestion that also turns the budget off, and an edit that Undo must see.
+TEST_F(CatchingUp, whatTheUserSetsInTheSameFrameIsKept) {
+    settings_.lod.fadeS = 0.7;
+    settings_.lod.tauPx = 3;
+    EXPECT_EQ(ungoverned(governing_, settings_), settings_);
+    settings_.budget.triangles = 0;
+    govern();
+    EXPECT_EQ(settings_.lod.fadeS, 0.7);
+    EXPECT_EQ(settings_.lod.tauPx, 3);
 }
 
 TEST_F(GovernedTau, settlesUntilItHasBeenStillForAWhile) {
@@ -101,7 +131,7 @@ TEST_F(GovernedTau, samplesAreWhatTheFrameCost) {
     stats_.render.shadowsMs = 32;
     stats_.panelsGpuMs = 64;
     stats_.selection.waiting = stats_.selection.drawn;
-    const planet::GovernorSample sample = governorSampleOf(stats_, *planet_, 1000, 0.5);
+    const planet::GovernorSample sample = governorSampleOf(stats_, *planet_, settings_.lod, 1000, 0.5);
     EXPECT_NEAR(sample.cost.cpuMs, 7.7, 1e-12);
     EXPECT_EQ(sample.cost.gpuMs, 120);
     EXPECT_EQ(sample.cost.triangles, static_cast<double>(stats_.selection.triangles()));

@@ -409,7 +409,7 @@ TEST(Governor, theBudgetThatNeedsTheLargestTauBinds) {
         GovernorState state;
         Governed governed;
         for (int i = 0; i < 60; ++i) {
-            governed = govern(state, sample, {.budget = budget});
+            governed = govern(state, sample, {.budget = budget, .mostTauPx = 1e5});
             state = governed.state;
         }
         EXPECT_TRUE(governed.governs);
@@ -577,6 +577,7 @@ TEST(Governor, survivesHostileNumbers) {
         }
         GovernorSample sample{costs(), any(), any(), any(), {}, any()};
         for (float& share : sample.merges.lnShare) share = static_cast<float>(any());
+        sample.merges.lnShareToCome = static_cast<float>(any());
         sample.merges.isKnown = i % 2 == 0;
         const Governed governed = govern(state, sample, settings);
         state = governed.state;
@@ -632,7 +633,7 @@ struct Selected {
                                     .tauPx = lod.tauPx,
                                     .elapsedS = frameS,
                                     .exponent = exponentOf(selection, lod.tauPx),
-                                    .merges = mergeCurveOf(selection)};
+                                    .merges = mergeCurveOf(selection, lod.hysteresis)};
         const Governed governed = govern(state, sample, settings);
         state = governed.state;
         lod.tauPx = governed.tauPx;
@@ -719,11 +720,31 @@ TEST(Governor, fadesAreShorterWhileChunksHaveSeveralLevelsToMerge) {
             .fadeS;
     };
     EXPECT_EQ(fadeS(0.01), 0.8) << "nothing is merging";
-    sample.merges.lnShare.fill(-1);
+    sample.merges.lnShareToCome = -1;
     EXPECT_EQ(fadeS(0.01), 0.2);
     EXPECT_EQ(fadeS(0.4), 0.4);
     EXPECT_EQ(fadeS(0.8), 0.8);
     EXPECT_EQ(govern({}, sample, {.fadeS = 0.8}).fadeS, 0.8) << "no budget is on";
+}
+
+// Bytes read are a mean, during which chunks merge, so shares of the triangles of now do not fit it.
+TEST(Governor, readingIsNotAnsweredByTheMergeCurve) {
+    const auto tauPxFor = [](const GovernorCosts& budget, bool knowsMerges) {
+        GovernorState state;
+        GovernorSample sample{
+            .cost = {.triangles = 1e6, .readBytesPerS = 4e7}, .tauPx = 2, .elapsedS = frameS};
+        sample.merges.isKnown = knowsMerges;
+        for (std::size_t i = 0; i < MergeCurve::count; ++i)
+            sample.merges.lnShare[i] = -0.01f * static_cast<float>(i);
+        for (int i = 0; i < 5; ++i) {
+            const Governed governed = govern(state, sample, {.budget = budget, .mostTauPx = 1e5});
+            state = governed.state;
+            sample.tauPx = governed.tauPx;
+        }
+        return sample.tauPx;
+    };
+    EXPECT_EQ(tauPxFor({.readBytesPerS = 1e6}, true), tauPxFor({.readBytesPerS = 1e6}, false));
+    EXPECT_NE(tauPxFor({.triangles = 2e5}, true), tauPxFor({.triangles = 2e5}, false));
 }
 
 // Without culling, each split that is merged takes away three chunks.
@@ -731,7 +752,7 @@ TEST(Governor, theMergeCurveIsWhatLargerTolerancesDraw) {
     const View view = selectedViews(false).front().view;
     LodSettings lod = withoutCulling(0.2);
     const Selection now = select(deepTree(), view, lod);
-    const MergeCurve curve = mergeCurveOf(now);
+    const MergeCurve curve = mergeCurveOf(now, lod.hysteresis);
     ASSERT_TRUE(curve.isKnown);
     for (std::size_t i = 0; i < MergeCurve::count; ++i) {
         lod.tauPx = 0.2 * std::exp2(static_cast<double>(i) / MergeCurve::perDoubling - 1);
@@ -742,26 +763,52 @@ TEST(Governor, theMergeCurveIsWhatLargerTolerancesDraw) {
     }
     EXPECT_LT(curve.lnShare.back(), -1);
     EXPECT_EQ(curve.levels, 0);
-    EXPECT_FALSE(mergeCurveOf({}).isKnown);
+    EXPECT_FALSE(mergeCurveOf({}, 0.1).isKnown);
+}
+
+// Chunks that hysteresis keeps split, however wide, are not on their way.
+TEST(Governor, theMergeCurveLeavesOutWhatHysteresisKeeps) {
+    const View view = selectedViews(false).front().view;
+    LodSettings lod = withoutCulling(0.2);
+    lod.hysteresis = 0.8;
+    Selection selection = select(deepTree(), view, lod);
+    lod.tauPx = 0.6;
+    selectChunks(deepTree(), view, lod, selection, frameS);
+    const MergeCurve curve = mergeCurveOf(selection, lod.hysteresis);
+    EXPECT_EQ(curve.lnShareToCome, 0);
+    EXPECT_EQ(curve.levels, 0);
+    EXPECT_LT(curve.lnShare[MergeCurve::perDoubling], -0.1);
+}
+
+// A region's least level keeps its chunks split at any τ.
+TEST(Governor, theMergeCurveLeavesOutWhatALeastLevelSplits) {
+    const View view = selectedViews(false).front().view;
+    const LodSettings lod = withoutCulling(0.2);
+    Selection selection = select(deepTree(), view, lod);
+    for (ChildrenRequest& split : selection.splits) split.isBelowLeastLevel = split.parentId.level < 2;
+    const MergeCurve curve = mergeCurveOf(selection, lod.hysteresis);
+    const double share = 6 * 16 / static_cast<double>(selection.draw.size());
+    EXPECT_NEAR(curve.lnShare.back(), std::log(share), 1e-4);
 }
 
 // A selection that fades keeps its splits when τ rises, and its curve then says what is on its way.
 TEST(Governor, theMergeCurveCountsTheLevelsThatAreOnTheirWay) {
     const View view = selectedViews(false).front().view;
     LodSettings lod;
+    lod.hysteresis = 0;
     lod.frustumCulling = lod.horizonCulling = false;
     lod.tauPx = 0.2;
     Selection selection = select(deepTree(), view, lod);
-    std::uint32_t deepest = selection.counters.deepestLevel;
+    const std::uint32_t deepest = selection.counters.deepestLevel;
     const auto before = static_cast<double>(selection.draw.size());
     lod.tauPx = 3.2;
     const Selection settled = select(deepTree(), view, lod);
     selectChunks(deepTree(), view, lod, selection, frameS);
-    const MergeCurve curve = mergeCurveOf(selection);
+    const MergeCurve curve = mergeCurveOf(selection, lod.hysteresis);
     EXPECT_GE(curve.levels, static_cast<int>(deepest - settled.counters.deepestLevel));
     EXPECT_LE(curve.levels, static_cast<int>(deepest));
     const double share = static_cast<double>(settled.draw.size()) / before;
-    EXPECT_NEAR(curve.lnShare[MergeCurve::perDoubling], std::log(share), 0.02);
+    EXPECT_NEAR(curve.lnShareToCome, std::log(share), 1e-4);
 }
 
 TEST(Governor, exponentIsThatOfTheChunksThatWouldMerge) {

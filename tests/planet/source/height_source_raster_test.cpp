@@ -461,25 +461,31 @@ TEST(RasterSource, TilesOfAGridHaveTheBitsOfItsFace) {
     }
 }
 
-// Several places are filtered at once, and those that are left over one by one.
+// Several places are filtered at once, and those that are left over one by one: at the end of a piece, and where a finer
+// raster has given heights to some of them.
 TEST(RasterSource, PiecesHaveTheBitsOfTheirPlacesOneByOne) {
     const TemporaryFolder folder;
-    writeRaster(folder / "utm.tif", gridAround(32632, 10, 46, 200, 200, 400), terrainAround(10, 46));
-    const HeightSource source = mustOpen(folder / "utm.tif");
-    const SampleTile middle = probeAt(10, 46, 1 << 15).tile;
-    for (const int columns : {1, 4, 7, 33}) {
-        const SampleTile piece{middle.face,     middle.faceCells, middle.firstColumn,
-                               middle.firstRow, columns,          3};
-        const std::vector<float> heights = sampled(source, piece);
-        std::vector<float> oneByOne;
-        for (int row = 0; row < piece.rows; ++row) {
-            for (int column = 0; column < piece.columns; ++column) {
-                oneByOne.push_back(sampled(source, {piece.face, piece.faceCells, piece.firstColumn + column,
-                                                    piece.firstRow + row, 1, 1})[0]);
+    writeRaster(folder / "a.tif", gridAround(32632, 10, 46, 200, 200, 400), terrainAround(10, 46));
+    for (const bool hasInset : {false, true}) {
+        if (hasInset)
+            writeRaster(folder / "b.tif", gridAround(32632, 10, 46, 20, 20, 100), terrainAround(10, 46));
+        const HeightSource source = mustOpen(folder / "*.tif");
+        const SampleTile middle = probeAt(10, 46, 1 << 15).tile;
+        for (const int columns : {1, 4, 7, 33}) {
+            const SampleTile piece{middle.face,         middle.faceCells, middle.firstColumn - columns / 2,
+                                   middle.firstRow - 1, columns,          3};
+            const std::vector<float> heights = sampled(source, piece);
+            std::vector<float> oneByOne;
+            for (int row = 0; row < piece.rows; ++row) {
+                for (int column = 0; column < piece.columns; ++column) {
+                    oneByOne.push_back(
+                        sampled(source, {piece.face, piece.faceCells, piece.firstColumn + column,
+                                         piece.firstRow + row, 1, 1})[0]);
+                }
             }
+            EXPECT_EQ(heights, oneByOne) << columns;
+            EXPECT_NE(std::ranges::count(heights, 0.0f), static_cast<std::ptrdiff_t>(heights.size()));
         }
-        EXPECT_EQ(heights, oneByOne) << columns;
-        EXPECT_NE(std::ranges::count(heights, 0.0f), static_cast<std::ptrdiff_t>(heights.size()));
     }
 }
 

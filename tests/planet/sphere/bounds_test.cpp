@@ -33,6 +33,38 @@ std::vector<ChunkId> manyChunks(std::mt19937& random) {
     return ids;
 }
 
+// The library computes many directions at once.
+TEST(Bounds, HaveTheBitsOfSampledDirections) {
+    std::mt19937 random(2);
+    constexpr int cells = 8;
+    for (const ChunkId& id : manyChunks(random)) {
+        const ChunkDirections directions = chunkDirections(id);
+        const FaceSquare square = faceSquareOf(id);
+        glm::dvec3 low(2), high(-2);
+        double chord = 0;
+        for (int j = 0; j <= cells; ++j) {
+            for (int i = 0; i <= cells; ++i) {
+                const glm::dvec3 direction = sphereFromCube(cubePoint(
+                    id.face, square.u + square.side * i / cells, square.v + square.side * j / cells));
+                for (int a = 0; a < 3; ++a) {
+                    const double along = glm::dot(directions.axes[static_cast<std::size_t>(a)], direction);
+                    low[a] = std::min(low[a], along);
+                    high[a] = std::max(high[a], along);
+                }
+                chord = std::max(chord, glm::length(direction - directions.cone.axis));
+            }
+        }
+        const double g = square.side / cells;
+        const double margin = g * g / 8 * 3 + 1e-14;
+        for (int a = 0; a < 3; ++a) {
+            EXPECT_EQ(directions.low[a], low[a] - margin) << toString(id);
+            EXPECT_EQ(directions.high[a], std::min(high[a] + margin, 1 + 1e-14)) << toString(id);
+        }
+        EXPECT_EQ(directions.cone.halfAngleRad, 2 * std::asin(std::min(1.0, (chord + margin) / 2)))
+            << toString(id);
+    }
+}
+
 TEST(Bounds, HoldEveryPointOfTheChunkAtEveryHeight) {
     std::mt19937 random(1);
     constexpr double radiusM = 6.371e6;

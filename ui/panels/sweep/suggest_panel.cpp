@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/base/text.h"
+#include "app/flight/flight_record.h"
 #include "app/measure/sweep_points.h"
 #include "app/suggest/suggest_budget.h"
 #include "app/suggest/suggest_report.h"
@@ -140,7 +141,7 @@ void flightControls(const std::vector<std::filesystem::path>& flights, SuggestPa
         }
         noteItem(fmt::format("Flight {}", name));
         tooltip(
-            file.extension() == ".flight"
+            isFlightRecord(file)
                 ? "Measures the very views of this recording if it is of the open chunk file, and otherwise "
                   "30 frames in a second along its path."
                 : "Measures every frame of this flight, 30 in a second.");
@@ -272,7 +273,8 @@ void startControl(const EditorView& view, const SuggestPanelState& state,
     if (*problem != '\0') wrappedText(problem, palette().dim);
     if (view.planet)
         wrappedText(
-            fmt::format("Measured at the viewport's size and field of view: {}x{} pixels, {:.4g}\u00b0.",
+            fmt::format("Measured at the viewport's size and field of view: {}x{} pixels, {:.4g}\u00b0. "
+                        "Recordings of this file keep their own.",
                         start.size.widthPx, start.size.heightPx,
                         glm::degrees(view.camera.renderView.horizontalFovRad)),
             palette().dim);
