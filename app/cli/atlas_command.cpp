@@ -204,7 +204,7 @@ Result<AtlasOutcome> surveyOnTerminal(const AtlasRequest& request) {
     });
 }
 
-// There is nothing to continue in a survey that is finished. An empty file only keeps its name.
+// There is nothing to continue in a survey that is finished. An empty file only reserves its name.
 Result<void> checkUnfinished(const AtlasOptions& options) {
     std::error_code status;
     const std::filesystem::path unfinished = planet::unfinishedAtlas(options.output);

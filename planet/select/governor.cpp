@@ -278,10 +278,10 @@ constexpr double lnLargeShare = -0.4;
 // Returns whether many chunks will merge even if τ stays.
 bool isOnItsWay(const GovernorState& state, const GovernorSample& sample) {
     constexpr double lnMany = -0.1;
-    constexpr double lnCaughtUp =
-        -0.02;  // fades that have begun to catch up go on until less than this is left
+    // Fades that have begun to catch up go on until fewer chunks than these will merge.
+    constexpr double lnFew = -0.02;
     return sample.merges.isKnown &&
-           static_cast<double>(sample.merges.lnShareToCome) < (state.fadeSpeed > 1 ? lnCaughtUp : lnMany);
+           static_cast<double>(sample.merges.lnShareToCome) < (state.fadeSpeed > 1 ? lnFew : lnMany);
 }
 
 // Returns how many times as fast as ordinary ones fades should be.

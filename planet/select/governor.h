@@ -47,9 +47,9 @@
 //
 // If several budgets are on, the one that needs the largest τ binds.
 //
-// Fades catch up: while many chunks have n > 1 levels to merge, for whatever reason, each level fades in fadeS / (n + 1). So after a step of the cost
-// that needs several levels, the cost is back within its budget after the age of its measurement and about one fadeS. Whoever
-// draws must take Governed::fadeS, or set GovernorSettings::leastFadeS to at least fadeS.
+// Fades catch up: while many chunks have n > 1 levels to merge, for whatever reason, each level fades in fadeS / (n + 1). So
+// after a step of the cost that needs several levels, the cost is back within its budget after the age of its measurement and
+// about one fadeS. Whoever draws must take Governed::fadeS, or set GovernorSettings::leastFadeS to at least fadeS.
 #pragma once
 
 #include <array>

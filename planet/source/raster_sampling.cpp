@@ -432,7 +432,7 @@ PLANET_ALWAYS_INLINE Float4 fourByFourOfFour(const RegionSamples& samples, const
     joinTaps(from, 3 * stride, taps);
     sum += __builtin_shufflevector(down, down, 3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15) *
            (across * taps);
-    // As in sumOfLanes, in each group.
+    // Each group is summed in the order of sumOfLanes.
     sum += __builtin_shufflevector(sum, sum, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
     return Float4{sum[0] + sum[1], sum[4] + sum[5], sum[8] + sum[9], sum[12] + sum[13]};
 }

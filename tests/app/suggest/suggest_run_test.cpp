@@ -216,7 +216,7 @@ TEST_F(SuggestPlanet, aRecordingIsMeasuredWithItsOwnViews) {
     EXPECT_EQ(outcome.frames, std::vector<std::size_t>{40});
     for (const SuggestWorst& worst : outcome.measured.worst[1]) EXPECT_EQ(worst.view, views[worst.frame]);
 
-    // As a flight, it is measured along its path, or with its views if the request says so.
+    // A recording among the flights is measured along its path, or with its views if the request says so.
     SuggestRequest flown = requestOf("10 M triangles");
     flown.flights = {file};
     EXPECT_NE(suggest(flown).frames, std::vector<std::size_t>{40});

@@ -65,7 +65,7 @@ void buttons(const EditorView& view, Commands& commands) {
                "show how the picture loads again."))
         commands.push_back(DropAll{});
     const planet::PagingCounters& p = view.frames.stats.paging;
-    // It is there without failures too, because otherwise the controls below would move under the pointer.
+    // The button is drawn without failures too. Otherwise the controls below would move under the pointer when one comes.
     const std::uint32_t failed = p.failedPermanently() + p.awaitingRetry();
     ImGui::PushStyleColor(ImGuiCol_Text, p.failedPermanently() > 0 ? palette().bad
                                          : failed > 0              ? palette().warning
@@ -278,7 +278,7 @@ void badDisk(const SettingControls& control, PagingOptions& paging) {
     control(disk.failureRate);
     control(disk.shuffledOrder);
     control(disk.seed);
-    // Below the sliders, which would otherwise move under the pointer.
+    // These lines stand below the sliders, which would otherwise move under the pointer.
     if (isBad(disk)) {
         wrappedText(fmt::format("Injecting I/O faults: {}.", badDiskText(disk)), palette().warning);
         if (button("Off", "Turns all fault injection off. The seed is kept.")) {

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -67,9 +68,12 @@ constexpr std::array<BudgetField, suggestLimitCount> budgetFields = {{
      "Bound of the distance between the drawn surface and the finest data on screen, morphs included."},
 }};
 
-// The label beside it says what is counted.
+// Returns a value without the word "triangles", which the label beside it says.
 std::string suggestCellText(SuggestLimit limit, double value) {
-    return limit == SuggestLimit::Triangles ? countText(value) : limitText(limit, value);
+    constexpr std::string_view counted = " triangles";
+    std::string text = limitText(limit, value);
+    if (text.ends_with(counted)) text.resize(text.size() - counted.size());
+    return text;
 }
 
 // Edits a budget as text with its unit. A text that cannot be read stays, and the budget stays as it was.
@@ -174,7 +178,7 @@ void chunkSizeControl(const EditorView& view, SuggestPanelState& state) {
     noteItem(fmt::format("Vary {}", label));
     endGrey();
     if (!canBake) return tooltip(problem);
-    tooltip(fmt::format("Also measures chunks of {} vertices a side. They are baked into the cache first, "
+    tooltip(fmt::format("Also measures chunks of {} vertices per side. They are baked into the cache first, "
                         "without colours, unless they are there.",
                         fmt::join(otherChunkSizes(view.planet->tree().shape), " and "))
                 .c_str());
