@@ -80,12 +80,12 @@ vec3 skyRadianceAlong(vec3 direction, vec3 up) {
     float rise = clamp(dot(direction, up), 0.0, 1.0);
     if (!switchPhysicalAir) {
         if (!switchAir) return vec3(0.0);
-        return scattered(airAbove(0.0, rise), scattering, sunOnAir(up * (frame.radiusScaleHeights + 1.5)),
-                         dot(direction, frame.sun));
+        return scattered(airAbove(0.0, rise), scattering, sunOnAir(up * (radiusScaleHeights + 1.5)),
+                         dot(direction, shading.sun));
     }
-    float sunRise = dot(frame.sun, up);
+    float sunRise = dot(shading.sun, up);
     float aside = sqrt(max((1.0 - rise * rise) * (1.0 - sunRise * sunRise), 1e-6));
-    float turn = clamp((dot(direction, frame.sun) - rise * sunRise) / aside, -1.0, 1.0);
+    float turn = clamp((dot(direction, shading.sun) - rise * sunRise) / aside, -1.0, 1.0);
     float sunPlace = 0.5 + 0.5 * sign(sunRise) * sqrt(min(abs(sunRise), 1.0));
     vec3 place = vec3(sqrt(rise), sqrt(0.5 - 0.5 * turn), sunPlace);
     place = mix(0.5 / air.skySize, 1.0 - 0.5 / air.skySize, place);
@@ -142,8 +142,8 @@ float squareOf(float x) {
 AirLight lightAlongSpan(AirSpan span, vec3 ray, float steps) {
     AirLight light = AirLight(vec3(0.0), vec3(1.0));
     if (span.far <= 0.0) return light;
-    float cosine = dot(ray, frame.sun);
-    float sunAlong = (air.radiusKm + air.eyeKm) * dot(air.eyeUp, frame.sun) + span.before * cosine;
+    float cosine = dot(ray, shading.sun);
+    float sunAlong = (air.radiusKm + air.eyeKm) * dot(air.eyeUp, shading.sun) + span.before * cosine;
     float radius = air.radiusKm + span.height;
     float rayleigh = 0.0596831 * (1.0 + cosine * cosine);
     float g = air.forward;
@@ -192,7 +192,7 @@ AirLight lightOfSky(vec3 ray, out bool meetsGround) {
     AirLight light = lightAlongSpan(span, ray, air.steps);
     if (!meetsGround) return light;
     vec3 place = (air.radiusKm + air.eyeKm) * air.eyeUp + (span.before + span.far) * ray;
-    float sunRise = clamp(dot(place, frame.sun) * inversesqrt(max(dot(place, place), 1.0)), -1.0, 1.0);
+    float sunRise = clamp(dot(place, shading.sun) * inversesqrt(max(dot(place, place), 1.0)), -1.0, 1.0);
     vec3 arrives = air.light * sunThroughAir(0.0, sunRise) * max(sunRise, 0.0) + skyIrradianceAt(0.0, sunRise);
     light.scattered += light.through * arrives * vec3(0.02, 0.04, 0.07);
     return light;
@@ -216,7 +216,7 @@ AirLight lightBefore(vec3 position, float heightM, float share) {
     float rise = dot(air.eyeUp, ray);
     distance *= air.kmPerM;
     float height = heightM * air.kmPerM;
-    float seaKm = frame.seaLevelM * air.kmPerM;
+    float seaKm = shading.seaLevelM * air.kmPerM;
     float byHeight = smoothstep(30.0, 150.0, air.eyeKm - height);
     if (switchSea && height < seaKm && air.eyeKm > seaKm) {
         height = seaKm;

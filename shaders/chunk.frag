@@ -15,6 +15,7 @@ flat in vec3 faceU;
 flat in vec3 faceV;
 flat in vec4 tint;
 flat in float meshLevel;
+flat in ShadingFrame held;
 
 uniform sampler2DArray colourImage;  // one face per layer: root of linear light; probability of water
 uniform sampler3D detailNoise;       // slope and height, in [-1, 1]
@@ -30,7 +31,7 @@ float leastNearness() {
 }
 
 bool isExtrapolated() {
-    return gl_FragCoord.w < leastNearness();
+    return switchMultisampled && gl_FragCoord.w < leastNearness();
 }
 
 // Returns the position relative to the eye, moved back along the pixel's ray if it was extrapolated too far.
@@ -79,9 +80,9 @@ Detail detailAt(vec3 position) {
 vec4 imageColour(Detail detail, float strength) {
     vec2 place = facePlace.xy;
     if (switchDetail) {
-        vec2 inside = min(place, 1.0 - place) / (4.0 * frame.imageStep);
+        vec2 inside = min(place, 1.0 - place) / (4.0 * shading.imageStep);
         vec2 aside = vec2(dot(detail.slope, faceU), dot(detail.slope, faceV));
-        place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * frame.imageStep);
+        place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * shading.imageStep);
     }
     if (switchTiles) {
         vec3 colour;
@@ -93,8 +94,8 @@ vec4 imageColour(Detail detail, float strength) {
         return vec4(colour, waterOf(colour));
     }
     // The centres of the outermost texels lie on the edges.
-    vec2 size = vec2(textureSize(colourImage, 0).xy);
-    vec4 image = texture(colourImage, vec3(place * (1.0 - 1.0 / size) + 0.5 / size, facePlace.w));
+    vec2 onImage = place * (1.0 - shading.imageStep) + 0.5 * shading.imageStep;
+    vec4 image = texture(colourImage, vec3(onImage, facePlace.w));
     return vec4(image.rgb * image.rgb, image.a);
 }
 
@@ -102,24 +103,24 @@ vec3 seaByDepth(float height) {
     vec3 shelf = vec3(0.022, 0.095, 0.135);
     vec3 open = vec3(0.008, 0.036, 0.085);
     vec3 deep = vec3(0.003, 0.014, 0.046);
-    float depth = max(-height, 0.0) * frame.perRampTopM;
-    return mix(mix(shelf, open, smoothstep(0.0, 0.22, depth)), deep, smoothstep(0.3, 1.0, depth));
+    float depth = max(-height, 0.0) * shading.perRampTopM;
+    return mix(mix(shelf, open, smoothRise(0.0, 0.22, depth)), deep, smoothRise(0.3, 1.0, depth));
 }
 
-// Returns colours from lowland green to rock to snow; frame.perRampTopM is 1 / the height of the highest
+// Returns colours from lowland green to rock to snow; shading.perRampTopM is 1 / the height of the highest
 // band.
 vec3 landByHeight(float height, float latitudeSine, float steep) {
-    float h = max(height, 0.0) * frame.perRampTopM;
+    float h = max(height, 0.0) * shading.perRampTopM;
     float cold = latitudeSine * latitudeSine;
-    float dry = 1.0 - smoothstep(0.10, 0.26, abs(abs(latitudeSine) - 0.40));
+    float dry = 1.0 - smoothRise(0.10, 0.26, abs(abs(latitudeSine) - 0.40));
     vec3 low = mix(vec3(0.036, 0.092, 0.018), vec3(0.230, 0.165, 0.068), 0.7 * dry);
     vec3 hills = mix(vec3(0.105, 0.120, 0.034), vec3(0.235, 0.150, 0.066), dry);
-    vec3 colour = mix(low, hills, smoothstep(0.03, 0.16, h));
-    colour = mix(colour, vec3(0.150, 0.092, 0.048), smoothstep(0.16, 0.42, h));
-    colour = mix(colour, vec3(0.120, 0.105, 0.092), smoothstep(0.42, 0.62, h));
+    vec3 colour = mix(low, hills, smoothRise(0.03, 0.16, h));
+    colour = mix(colour, vec3(0.150, 0.092, 0.048), smoothRise(0.16, 0.42, h));
+    colour = mix(colour, vec3(0.120, 0.105, 0.092), smoothRise(0.42, 0.62, h));
     colour = mix(colour, vec3(0.095, 0.080, 0.066), 0.7 * steep);
     float snowLine = 1.04 - 1.38 * cold * cold;
-    float snow = smoothstep(snowLine - 0.10, snowLine + 0.12, h) * (1.0 - 0.8 * steep);
+    float snow = smoothRise(-0.10, 0.12, h - snowLine) * (1.0 - 0.8 * steep);
     return mix(colour, vec3(0.82, 0.85, 0.88), snow);
 }
 
@@ -151,7 +152,7 @@ Material rampMaterial(vec3 up, float height, float steep, float below) {
         return Material(albedo, below, 0.0, sandyBed);
     }
     vec3 land = landByHeight(height, up.z, steep);
-    float ice = below * smoothstep(0.955, 0.985, abs(up.z));
+    float ice = below * smoothRise(0.955, 0.985, abs(up.z));
     vec3 sea = mix(seaByDepth(height), vec3(0.70, 0.76, 0.82), ice);
     return Material(mix(land, sea, below), below * (1.0 - ice), 0.0, sandyBed);
 }
@@ -159,14 +160,14 @@ Material rampMaterial(vec3 up, float height, float steep, float below) {
 // Returns whether the sea's surface is drawn here: over ground below the sea level, by the mesh. Water that
 // the image shows on higher ground has no depth to draw and keeps the image's colour.
 bool isUnderSea() {
-    return switchSeaSurface && facePlace.z < frame.seaLevelM;
+    return switchSeaSurface && facePlace.z < shading.seaLevelM;
 }
 
 // Returns 1 where the ground is at least as deep as the shore, 0 above the sea level. shoreM: depth of the
 // shore on the Earth, metres.
 float belowSea(float height, float shoreM) {
     if (!switchSea) return 0.0;
-    return 1.0 - smoothstep(-shoreM * frame.radiusM / 6.371e6, 0.0, height);
+    return smoothRise(0.0, shoreM, -height * shading.earthRadii);
 }
 
 // Returns the material by the image. The image shows which low land is dry and which ground is water, but not
@@ -174,7 +175,7 @@ float belowSea(float height, float shoreM) {
 // shallows look.
 Material imageMaterial(float height, float below, Detail detail, float strength) {
     vec4 image = imageColour(detail, strength);
-    float flooded = clamp(frame.seaLevelM * (6.371e6 / 30.0) / frame.radiusM, 0.0, 1.0);
+    float flooded = clamp(shading.seaLevelM * shading.earthRadii * (1.0 / 30.0), 0.0, 1.0);
     // The mesh's coast is coarser than the image's, and lakes may be deeper than the sea level. So the drawn
     // surface fades in with its depth in water that the image shows.
     float deep = isUnderSea() ? belowSea(height, 30.0) : below;
@@ -208,7 +209,7 @@ float meshLine() {
     cover *= step(vec3(1e-5), width);
     float line = max(0.85 * max(cover.x, cover.y), 0.5 * cover.z);
     float widest = max(width.x, width.y);
-    return mix(line, 0.35, smoothstep(0.2, 0.6, widest));
+    return mix(line, 0.35, smoothRise(0.2, 0.6, widest));
 }
 
 // Returns the distance to the chunk's border, pixels; the chunk beside it draws the other half of the line.
@@ -218,21 +219,21 @@ float borderAwayPx() {
     vec2 away = min(gridCoordinate, float(1 << frame.chunkCellsLog2) - gridCoordinate) / max(width, vec2(1e-9));
     away += 1e3 * (1.0 - step(vec2(1e-5), width));
     float chunkPx = float(1 << frame.chunkCellsLog2) / max(width.x, width.y);
-    return min(away.x, away.y) + 10.0 * (1.0 - smoothstep(3.0, 8.0, chunkPx));
+    return min(away.x, away.y) + 10.0 * (1.0 - smoothRise(3.0, 8.0, chunkPx));
 }
 
 // Draws a light line 1.5 pixels wide, with dark sides so that it is visible on any ground.
 vec3 outlined(vec3 colour) {
     float away = borderAwayPx();
     vec3 line = switchWireframe ? vec3(1.0, 0.70, 0.15) : vec3(1.0, 0.98, 0.92);
-    colour *= 1.0 - 0.45 * (1.0 - smoothstep(1.0, 2.25, away));
-    return mix(colour, line, 0.9 * (1.0 - smoothstep(0.25, 1.25, away)));
+    colour *= 1.0 - 0.45 * (1.0 - smoothRise(1.0, 2.25, away));
+    return mix(colour, line, 0.9 * (1.0 - smoothRise(0.25, 1.25, away)));
 }
 
 // Returns 1 if a step of the heights or the image is drawn larger than about two pixels, with a smooth
 // transition.
 float between(float pixels) {
-    return smoothstep(2.0, 6.0, pixels);
+    return smoothRise(2.0, 6.0, pixels);
 }
 
 // Attenuates the light by the air between the eye and the ground, and adds the sunlight that the air
@@ -243,13 +244,13 @@ vec3 throughAir(vec3 light, vec3 position, vec3 ray, vec3 up) {
         AirLight before = lightBefore(position, facePlace.z, 0.5);
         return light * before.through + before.scattered;
     }
-    float mass = airBefore(ray, up, max(facePlace.z, 0.0) * frame.scaleHeightsPerM);
+    float mass = airBefore(ray, up, max(facePlace.z, 0.0) * shading.scaleHeightsPerM);
     vec3 amount = scatteringBeforeGround();
-    return light * exp(-(amount + vec3(haze)) * mass) + scattered(mass, amount, inRange(airLit), dot(ray, frame.sun));
+    return light * exp(-(amount + vec3(haze)) * mass) + scattered(mass, amount, inRange(airLit), dot(ray, shading.sun));
 }
 
 vec3 groundNormal() {
-    vec3 normal = normalize(surfaceNormal.xyz);
+    vec3 normal = renormalised(surfaceNormal.xyz);
     if (switchNormalTiles) normal = normalFromTiles(normal, meshLevel, facePlace);
     return normal;
 }
@@ -258,13 +259,13 @@ vec3 lightByPixel() {
     vec3 position = positionSeen();
     float nearness = inversesqrt(dot(position, position));
     vec3 ray = position * nearness;
-    vec3 up = normalize(frame.eyeM + position);
+    vec3 up = normalize(shading.eyeM + position);
     vec3 bare = groundNormal();
     vec3 normal = bare;
     Detail detail = noDetail();
     float rough = 0.0;
     float ragged = 0.0;
-    float height = facePlace.z - frame.seaLevelM;
+    float height = facePlace.z - shading.seaLevelM;
     if (switchDetail) {
         detail = detailAt(position);
         rough = between(frame.heightStepPxM * nearness) * (0.05 + 0.95 * surfaceNormal.w);
@@ -278,41 +279,41 @@ vec3 lightByPixel() {
         material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - anyWater(material)) * detail.height;
     float glint = 0.0;
     if (switchLayers) {
-        Layered layered = layeredGround(position, up, bare, facePlace.z - frame.seaLevelM, material.albedo);
+        Layered layered = layeredGround(position, up, bare, facePlace.z - shading.seaLevelM, material.albedo);
         float amount = layered.amount * (1.0 - anyWater(material));
         material.albedo = mix(material.albedo, layered.albedo, amount);
         vec3 tilt = layered.tilt - normal * dot(layered.tilt, normal);
         normal = normalize(normal - amount * tilt);
         glint = amount * layerGlint(normal, -ray, layered.roughness);
     }
-    vec3 facing = normalize(mix(normal, up, (switchDetail ? 0.98 : 0.94) * material.water));
+    vec3 facing = renormalised(mix(normal, up, (switchDetail ? 0.98 : 0.94) * material.water));
     float sea = isUnderSea() ? material.water : 0.0;
     vec3 sunlight = inRange(sunLit);
     vec3 skylight = inRange(skyLit) + fillLight(facing, -ray, up);
     if (switchShadows)
         sunlight *= sunSeen(position, normalize(mix(surfaceNormal.xyz, up, sea)));
     float wet = material.water - sea;
-    vec3 light = material.albedo * (sunlight * max(dot(facing, frame.sun), 0.0) + skylight) +
+    vec3 light = material.albedo * (sunlight * max(dot(facing, shading.sun), 0.0) + skylight) +
                  sunlight * (wet * seaGlint(facing, -ray) + glint);
     if (sea > 0.0)
         light = mix(light,
-                    seaLight(position, ray, up, facePlace.z - frame.seaLevelM, material.bed, sunlight, skylight), sea);
+                    seaLight(position, ray, up, facePlace.z - shading.seaLevelM, material.bed, sunlight, skylight), sea);
     return throughAir(light, position, ray, up);
 }
 
 vec3 lightByVertex() {
-    vec3 up = normalize(frame.eyeM + surface);
-    Material material = materialAt(up, facePlace.z - frame.seaLevelM, steep, noDetail(), 0.0);
+    vec3 up = normalize(shading.eyeM + surface);
+    Material material = materialAt(up, facePlace.z - shading.seaLevelM, steep, noDetail(), 0.0);
     vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
     return inRange(groundArriving.rgb) * max(reflected, 0.0) + inRange(airArriving.rgb);
 }
 
 vec3 flatSurface() {
-    vec3 up = normalize(frame.eyeM + surface);
-    Material material = materialAt(up, facePlace.z - frame.seaLevelM, 0.0, noDetail(), 0.0);
+    vec3 up = normalize(shading.eyeM + surface);
+    Material material = materialAt(up, facePlace.z - shading.seaLevelM, 0.0, noDetail(), 0.0);
     vec3 albedo = material.albedo;
     if (switchLayers) {
-        Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - frame.seaLevelM, albedo);
+        Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - shading.seaLevelM, albedo);
         albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - anyWater(material)));
     }
     return encodeSrgb(clamp(albedo, 0.0, 1.0));
@@ -327,10 +328,12 @@ vec3 litSurface() {
 }
 
 void main() {
+    if (switchHeldFrame) shading = held;
+    else shading = frame.shading;
     vec3 colour = switchLighting ? litSurface() : flatSurface();
     if (switchLayerPreview)
-        colour = layerPreview(colour, surface, normalize(frame.eyeM + surface), groundNormal(),
-                              facePlace.z - frame.seaLevelM);
+        colour = layerPreview(colour, surface, normalize(shading.eyeM + surface), groundNormal(),
+                              facePlace.z - shading.seaLevelM);
     // Tints carry measured values. They are applied to the finished picture, so that light, air and dither do
     // not change their colours.
     if (switchTint) colour = mix(colour, tint.rgb, tint.a);

@@ -32,6 +32,8 @@ flat out vec3 faceV;
 flat out vec4 tint;
 flat out float meshLevel;  // level of the tiles whose texels are the mesh's vertices
 
+flat out ShadingFrame held;
+
 invariant gl_Position;
 
 // Returns the texel of a slot's first height: column and row in its page, and the page.
@@ -80,8 +82,8 @@ vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slot
 }
 
 void lightGround(vec3 position, vec3 up, float height) {
-    float sunRise = dot(up, frame.sun);
-    float day = smoothstep(-0.06, 0.10, sunRise);
+    float sunRise = dot(up, shading.sun);
+    float day = smoothRise(-0.06, 0.10, sunRise);
     vec3 sky = vec3(0.0125, 0.013, 0.0145);
     sunLit = sunLight * day;
     airLit = vec3(0.0);
@@ -92,17 +94,17 @@ void lightGround(vec3 position, vec3 up, float height) {
         return;
     }
     if (switchAir) {
-        sky = vec3(0.085, 0.115, 0.165) * smoothstep(-0.18, 0.30, sunRise) + vec3(0.0025, 0.003, 0.0045);
+        sky = vec3(0.085, 0.115, 0.165) * smoothRise(-0.18, 0.30, sunRise) + vec3(0.0025, 0.003, 0.0045);
         sunLit *= sunThrough(0.1, sunRise);
-        airLit = sunOnAirBefore(position, normalize(position), up, max(height, 0.0) * frame.scaleHeightsPerM);
+        airLit = sunOnAirBefore(position, normalize(position), up, max(height, 0.0) * shading.scaleHeightsPerM);
     }
     skyLit = sunLight * 0.55 * sky;
 }
 
 void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
     vec3 ray = normalize(position);
-    vec3 land = sunLit * max(dot(normal, frame.sun), 0.0) + skyLit + fillLight(normal, -ray, up);
-    vec3 sea = sunLit * max(dot(up, frame.sun), 0.0) + skyLit + fillLight(up, -ray, up);
+    vec3 land = sunLit * max(dot(normal, shading.sun), 0.0) + skyLit + fillLight(normal, -ray, up);
+    vec3 sea = sunLit * max(dot(up, shading.sun), 0.0) + skyLit + fillLight(up, -ray, up);
     steep = steepness(normal, up);
     groundArriving = vec4(land, sea.g / land.g);
     airArriving = vec4(0.0, 0.0, 0.0, seaGlint(up, -ray) * sunLit.g / land.g);
@@ -113,10 +115,10 @@ void lightByVertex(vec3 position, vec3 up, vec3 normal, float height) {
         airArriving.rgb = before.scattered;
         return;
     }
-    float mass = airBefore(ray, up, max(height, 0.0) * frame.scaleHeightsPerM);
+    float mass = airBefore(ray, up, max(height, 0.0) * shading.scaleHeightsPerM);
     vec3 amount = scatteringBeforeGround();
     groundArriving.rgb *= exp(-(amount + vec3(haze)) * mass);
-    airArriving.rgb = scattered(mass, amount, airLit, dot(ray, frame.sun));
+    airArriving.rgb = scattered(mass, amount, airLit, dot(ray, shading.sun));
 }
 
 // Returns both slopes at a vertex: along u and along v.
@@ -237,6 +239,8 @@ Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
 }
 
 void main() {
+    shading = frame.shading;
+    if (switchHeldFrame) held = shading;
     FaceUniforms face = frame.faces[chunkFace];
     int last = 1 << frame.chunkCellsLog2;
     Slide slide = Slide(ivec2(gridVertex), ivec2(0), 0.0, ivec2(0), 0.0);
@@ -291,7 +295,7 @@ void main() {
                      : normalOnSphere(face, coordinates, up, frame.referenceRadiusM + rise, heightSlope);
         normal *= inversesqrt(dot(normal, normal));
         float steepest = max(steps[0].y, steps[1].y) * stepsPerSlope / (0.75 * frame.radiusM);
-        rough = smoothstep(0.0, 0.09, steepest);
+        rough = smoothRise(0.0, 0.09, steepest);
         vec3 unitUp = normalize(up);
         lightGround(position, unitUp, height);
         if (switchLightByVertex) lightByVertex(position, unitUp, normal, height);

@@ -31,12 +31,27 @@ struct TileSampling {
     float extraLevels;  // levels finer than one texel per pixel
 };
 
+// What shading reads at most pixels.
+struct ShadingFrame {
+    vec3 sun;                  // unit vector
+    float nearGround;          // 1 near the ground, 0 in space
+    vec3 eyeUp;                // unit vector
+    float eyeScaleHeights;     // height of the eye, >= 0
+    vec3 eyeM;                 // from the planet's centre
+    float scaleHeightsPerM;
+    float eyeGrazing;          // air mass along the horizontal at the eye, of that straight up (grazingAt)
+    float eyeAir;              // air mass straight up from the eye
+    float seaLevelM;
+    float earthRadii;          // the Earth's radius in radii of the planet
+    float perRampTopM;         // 1 / height of the built-in ramp's highest band
+    float imageStep;           // one step of the image, [0, 1] across a face
+};
+
 layout(std140) uniform Frame {
     FaceUniforms faces[faceCount];
     mat4 clipFromWorld;  // without the translation
-    vec3 eyeM;           // from the planet's centre
-    vec3 sun;            // unit
-    vec3 rayForward;     // ray of a pixel: forward + x right + y up, with x and y in [-1, 1]
+    ShadingFrame shading;
+    vec3 rayForward;  // ray of a pixel: forward + x right + y up, with x and y in [-1, 1]
     vec3 rayRight;
     vec3 rayUp;
     float pixelRad;  // angle of one pixel
@@ -48,34 +63,30 @@ layout(std140) uniform Frame {
     float quantumM;
     int referenceStep;
     float baseHeightM;  // of step 0
-    float seaLevelM;
-    float seaRiseM;  // sea level above the reference step
+    float seaRiseM;     // sea level above the reference step
     int chunkCellsLog2;
     float reliefBoost;  // factor by which lighting steepens slopes
     float fill;         // strength of the fill light
 
-    vec3 eyeUp;             // unit vector
-    float eyeScaleHeights;  // height of the eye, >= 0
-    float radiusScaleHeights;
-    float scaleHeightsPerM;
-    int drawsAtmosphere;
-    float nearGround;  // 1 near the ground, 0 in space
-    float groundGrazing;  // air mass along the horizontal at height 0, of that straight up (grazingAt)
-    float eyeGrazing;     // the same at the eye
-    float eyeAir;         // air mass straight up from the eye
-
     DetailOctave detail[3];
     float heightStepPxM;  // pixels x metres: the size of a step of the heights at a distance of one metre
     float imageStepPxM;   // the same for a step of the image
-    float imageStep;      // one step of the image, [0, 1] across a face
     float imageOpacity;   // over the ramp
 
     RampUniforms ramp[maxRampStops];
     int rampStopCount;
-    float perRampTopM;     // 1 / height of the built-in ramp's highest band
     float rampColoursSea;  // 1: the ramp's stops colour the sea too
 
     TileSampling colours;
     TileSampling normals;
     float normalRiseM;  // rise of a slope of 1 along 1 of u or v
 } frame;
+
+// Main functions set it first, so that they may take it from the vertices (switchHeldFrame).
+ShadingFrame shading;
+
+// Returns smoothstep(from, to, x). If from and to are constants, compilers turn the division into a product.
+float smoothRise(float from, float to, float x) {
+    float t = clamp((x - from) * (1.0 / (to - from)), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}

@@ -1,14 +1,25 @@
 // The lighting of the ground that vertex and fragment shaders share.
 
+// Returns a unit vector for one that is nearly of unit length, such as a mix of unit vectors. Two steps of Newton's
+// method replace the square root: the error is below 0.1 % for mixes of vectors that are 60 degrees apart.
+vec3 renormalised(vec3 v) {
+    float squared = dot(v, v);
+    float once = 1.5 - 0.5 * squared;
+    return v * (once * (1.5 - 0.5 * squared * once * once));
+}
+
 float steepness(vec3 normal, vec3 up) {
-    return smoothstep(0.08, 0.45, 1.0 - dot(normal, up));
+    return smoothRise(0.08, 0.45, 1.0 - dot(normal, up));
 }
 
 // Returns the sun's reflection in open sea, relative to its light: a core and a faint halo.
 float seaGlint(vec3 normal, vec3 toEye) {
-    vec3 middle = normalize(toEye + frame.sun);
-    float halo = exp(-62.0 * (1.0 - dot(normal, middle)));
-    float aside = 1.0 - max(dot(middle, toEye), 0.0);
+    // The cosines to the middle between the directions to the eye and to the sun.
+    float between = dot(toEye, shading.sun);
+    float perLength = inversesqrt(2.0 + 2.0 * between);
+    float toMiddle = dot(normal, toEye + shading.sun) * perLength;
+    float halo = exp(-62.0 * (1.0 - toMiddle));
+    float aside = 1.0 - (1.0 + between) * perLength;
     float squared = aside * aside;
     float fresnel = 0.02 + 0.5 * squared * squared * aside;
     float core = halo * halo * halo * halo;
@@ -19,7 +30,7 @@ float seaGlint(vec3 normal, vec3 toEye) {
 // slopes look as on a shaded map.
 float fillLight(vec3 normal, vec3 toEye, vec3 up) {
     if (!switchFill) return 0.0;
-    float night = 1.0 - smoothstep(-0.10, 0.15, dot(up, frame.sun));
+    float night = 1.0 - smoothRise(-0.10, 0.15, dot(up, shading.sun));
     vec3 from = normalize(toEye + 0.7 * (normalize(frame.rayUp) - normalize(frame.rayRight)));
     return 2.0 * frame.fill * night * (0.2 + 0.8 * max(dot(normal, from), 0.0));
 }

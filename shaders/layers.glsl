@@ -221,14 +221,14 @@ Layered layeredGround(vec3 position, vec3 up, vec3 normal, float height, vec3 be
 // Returns the sun's reflection in a surface that is not fully rough, relative to its light: Blinn and Phong's
 // lobe, with the width of the roughness, and Schlick's Fresnel term from 0.04.
 float layerGlint(vec3 normal, vec3 toEye, float roughness) {
-    vec3 middle = toEye + frame.sun;
+    vec3 middle = toEye + shading.sun;
     middle *= inversesqrt(max(dot(middle, middle), 1e-6));
     float wide = max(roughness * roughness, 0.02);
     float power = 2.0 / (wide * wide) - 2.0;
     float aside = 1.0 - max(dot(middle, toEye), 0.0);
     float squared = aside * aside;
     float fresnel = 0.04 + 0.96 * squared * squared * aside;
-    float facing = max(dot(normal, frame.sun), 0.0);
+    float facing = max(dot(normal, shading.sun), 0.0);
     return facing * fresnel * (power + 2.0) / 8.0 * pow(max(dot(normal, middle), 0.0), max(power, 0.01));
 }
 

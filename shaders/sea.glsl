@@ -37,7 +37,7 @@ Waves wavesAt(vec3 position, vec3 up) {
     for (int i = 0; i < seaWaveCount; ++i) {
         vec3 k = seaState.waves[i].vector;
         float turn = max(abs(dot(k, acrossX)), abs(dot(k, acrossY)));  // radians from pixel to pixel
-        float share = 1.0 - smoothstep(0.4, 1.8, turn);
+        float share = 1.0 - smoothRise(0.4, 1.8, turn);
         if (share == 0.0) continue;
         vec3 along = k - up * dot(k, up);
         float slope = seaState.waveSlope * share;
@@ -58,7 +58,7 @@ float seaFresnel(float cosine, float variance) {
 
 // Returns the sun's light reflected by slopes with a variance. Irradiance is in units of pi, as in sunLit.
 vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
-    vec3 middle = normalize(toEye + frame.sun);
+    vec3 middle = normalize(toEye + shading.sun);
     float across = max(dot(middle, normal), 1e-3);
     float across2 = across * across;
     float slope2 = (1.0 - across2) / across2;
@@ -67,7 +67,7 @@ vec3 sunGlitter(vec3 normal, vec3 toEye, vec3 sunlight, float variance) {
     float fresnel = 0.02 + 0.98 * aside * aside * aside * aside * aside;
     // At grazing angles waves hide one another, so the eye sees no more than their tilt turns towards it.
     float seenCosine = max(dot(normal, toEye), 0.35 * sqrt(variance));
-    float lit = smoothstep(0.0, 0.06, dot(normal, frame.sun));
+    float lit = smoothRise(0.0, 0.06, dot(normal, shading.sun));
     return sunlight * (lit * fresnel * density / (4.0 * seenCosine * across2 * across2));
 }
 
@@ -92,7 +92,7 @@ vec3 seaLight(vec3 position, vec3 ray, vec3 up, float height, vec3 bed, vec3 sun
     float mirrored = seaFresnel(cosine, waves.variance);
     vec3 direction = reflect(ray, normal);
     direction = normalize(direction + up * (max(-dot(direction, up), 0.0) + 0.5 * sqrt(waves.variance)));
-    vec3 downwelling = sunlight * max(dot(up, frame.sun), 0.0) + skylight;
+    vec3 downwelling = sunlight * max(dot(up, shading.sun), 0.0) + skylight;
     vec3 below = fromWater(max(-height, 0.0) * seaState.perExaggeration, bed, downwelling);
     return mix(below, skyRadianceAlong(direction, up), mirrored) +
            sunGlitter(normal, toEye, sunlight, waves.variance);

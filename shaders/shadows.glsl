@@ -36,7 +36,7 @@ float sunSeen(vec3 position, vec3 normal) {
     float last = shadow.cascades[shadowCascadeCount - 1].endM;
     if (along >= last) return 1.0;
     int cascade = along < shadow.cascades[0].endM ? 0 : along < shadow.cascades[1].endM ? 1 : 2;
-    float facing = dot(normal, frame.sun);
+    float facing = dot(normal, shading.sun);
     vec3 off = normal * ((1.0 + shadow.softness) * sqrt(max(1.0 - facing * facing, 0.0)));
     float seen = shadowAt(cascade, position + off * shadow.cascades[cascade].texelM);
     // Blends into the next cascade over a tenth of the cascade's length, and fades out at the end of the

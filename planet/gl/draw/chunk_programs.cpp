@@ -11,6 +11,7 @@
 
 #include "planet/gl/draw/chunk_instances.h"
 #include "planet/gl/draw/shader_prologue.h"
+#include "planet/gl/draw/sky.h"
 
 namespace planet::gl {
 
@@ -24,8 +25,12 @@ constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
      "normal_tiles.glsl", "chunk.frag"});
 constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
-constexpr std::array<std::string_view, 5> skyFragmentFiles = {"frame.glsl", "atmosphere.glsl", "air.glsl",
-                                                              "tone.glsl", "sky.frag"};
+constexpr auto skyFragmentFiles = std::to_array<std::string_view>(
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "sky.glsl", "tone.glsl", "sky.frag"});
+constexpr auto starsVertexFiles = std::to_array<std::string_view>(
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "sky.glsl", "stars.glsl", "stars.vert"});
+constexpr auto starsFragmentFiles =
+    std::to_array<std::string_view>({"tone.glsl", "stars.glsl", "stars.frag"});
 constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
 constexpr std::array<std::string_view, 2> faceImageFragmentFiles = {"water.glsl", "face_image.frag"};
 constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
@@ -67,20 +72,31 @@ ProgramKey depthKey(Switches switches) {
     return {ProgramUse::Depth, switches & (switchSlide | switchMorph | switchGather | switchSeaSurface)};
 }
 
-ProgramKey skyKey(bool physicalAir) {
-    return {ProgramUse::Sky, physicalAir ? switchPhysicalAir : Switches{0}};
+ProgramKey skyKey(Switches switches) {
+    return {ProgramUse::Sky, switches & (switchAir | switchPhysicalAir)};
+}
+
+ProgramKey starsKey(Switches switches) {
+    return {ProgramUse::Stars, skyKey(switches).switches};
 }
 
 Result<Program> ChunkPrograms::linked(const Texts& texts, const ProgramKey& key) {
-    const bool sky = key.use == ProgramUse::Sky;
-    const ShaderText& vertex = sky ? texts.skyVertex : texts.chunkVertex;
-    const ShaderText& fragment = sky                            ? texts.skyFragment
-                                 : key.use == ProgramUse::Depth ? texts.depthFragment
-                                                                : texts.chunkFragment;
     const std::string prologue = shaderPrologue(key.switches);
-    return linkProgram(
-        vertex, fragment,
-        {.prologue = prologue, .inputs = sky ? std::span<const VertexInput>() : chunkInputs()});
+    const auto link = [&](const ShaderText& vertex, const ShaderText& fragment,
+                          std::span<const VertexInput> inputs) {
+        return linkProgram(vertex, fragment, {.prologue = prologue, .inputs = inputs});
+    };
+    switch (key.use) {
+        case ProgramUse::Chunk:
+            return link(texts.chunkVertex, texts.chunkFragment, chunkInputs());
+        case ProgramUse::Depth:
+            return link(texts.chunkVertex, texts.depthFragment, chunkInputs());
+        case ProgramUse::Sky:
+            return link(texts.skyVertex, texts.skyFragment, {});
+        case ProgramUse::Stars:
+            return link(texts.starsVertex, texts.starsFragment, starInputs());
+    }
+    return badInput("no such use of a program");
 }
 
 Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
@@ -90,12 +106,14 @@ Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
     programs.worker_ = std::move(worker);
     programs.delivery_ = std::make_shared<Delivery>();
     const auto texts = std::make_shared<Texts>();
-    const std::array<std::pair<ShaderText*, ShaderFiles>, 5> wanted = {
+    const std::array<std::pair<ShaderText*, ShaderFiles>, 7> wanted = {
         {{&texts->chunkVertex, chunkVertexFiles},
          {&texts->chunkFragment, chunkFragmentFiles},
          {&texts->depthFragment, depthFragmentFiles},
          {&texts->skyVertex, skyVertexFiles},
-         {&texts->skyFragment, skyFragmentFiles}}};
+         {&texts->skyFragment, skyFragmentFiles},
+         {&texts->starsVertex, starsVertexFiles},
+         {&texts->starsFragment, starsFragmentFiles}}};
     for (const auto& [text, files] : wanted) {
         Result<ShaderText> read = readShader(folder, files);
         if (!read) return tl::unexpected(read.error());
@@ -103,7 +121,8 @@ Result<ChunkPrograms> ChunkPrograms::build(const std::filesystem::path& folder,
     }
     programs.texts_ = texts;
     // Programs differ only in constants: if one compiles, so will the others.
-    for (const ProgramKey& key : {ProgramKey{}, skyKey(false), skyKey(true)}) {
+    for (const ProgramKey& key :
+         {ProgramKey{}, skyKey(switchAir), skyKey(switchAir | switchPhysicalAir), starsKey(0)}) {
         Result<Program> program = linked(*texts, key);
         if (!program) return tl::unexpected(program.error());
         programs.linked_[key].program = std::move(*program);
@@ -224,8 +243,9 @@ Result<Program> ChunkPrograms::passingOn(Switches switches) const {
                                     output.isFlat ? "flat " : "");
         copies += fmt::format("    {0} = {0}Held;\n", output.name);
     }
-    vertex->text +=
-        "void main() {\n" + copies + "    gl_Position = frame.clipFromWorld * vec4(surface, 1.0);\n}\n";
+    vertex->text += "flat out ShadingFrame held;\n";
+    vertex->text += "void main() {\n    held = frame.shading;\n" + copies +
+                    "    gl_Position = frame.clipFromWorld * vec4(surface, 1.0);\n}\n";
     std::vector<VertexInput> inputs;
     for (const std::string& name : names) inputs.push_back({.name = name.c_str()});
     const std::string prologue = shaderPrologue(switches);

@@ -22,7 +22,7 @@
 
 namespace planet::gl {
 
-// Each combination of a use and switches is a separate program. Depth and Sky depend on few switches.
+// Each combination of a use and switches is a separate program. All but Chunk depend on few switches.
 struct ProgramKey {
     ProgramUse use = ProgramUse::Chunk;
     Switches switches = 0;
@@ -81,7 +81,8 @@ public:
 
 private:
     struct Texts {
-        ShaderText chunkVertex, chunkFragment, depthFragment, skyVertex, skyFragment;
+        ShaderText chunkVertex, chunkFragment, depthFragment, skyVertex, skyFragment, starsVertex,
+            starsFragment;
     };
     struct Linked {
         Program program;     // name 0 if the driver rejected it
@@ -111,6 +112,7 @@ private:
 
 // Return the keys of the programs that accompany a chunk program.
 ProgramKey depthKey(Switches switches);
-ProgramKey skyKey(bool physicalAir);
+ProgramKey skyKey(Switches switches);
+ProgramKey starsKey(Switches switches);
 
 }  // namespace planet::gl

@@ -29,6 +29,7 @@
 #include "planet/gl/draw/layer_uniforms.h"
 #include "planet/gl/draw/sea_uniforms.h"
 #include "planet/gl/draw/shadow_uniforms.h"
+#include "planet/gl/draw/sky.h"
 #include "planet/gl/store/air_textures.h"
 #include "planet/gl/store/colour_clipmap.h"
 #include "planet/gl/store/colour_image.h"
@@ -110,6 +111,7 @@ struct DrawnWith {
     const Program* chunk = nullptr;
     const Program* depth = nullptr;
     const Program* sky = nullptr;
+    const Program* stars = nullptr;
     bool standIn = false;
 };
 
@@ -125,7 +127,8 @@ struct ChunkRenderer::State {
     Switches captureSwitches = 0;
     int captureReloads = 0;  // ChunkPrograms::reloads() when it was made
     Texture noise;
-    VertexArray chunkArray, skyArray;
+    VertexArray chunkArray;
+    Sky sky;
     Buffer gridVertices, gridIndices, instances, frame, layersFrame, clipmapFrame, seaFrame, shadowsFrame;
     std::size_t gridBytes = 0;
     std::size_t instanceBytes = 0;  // allocated
@@ -133,7 +136,7 @@ struct ChunkRenderer::State {
     GLsizei gridIndexCount = 0;
     GLsizei allIndexCount = 0;
     Switches drawnSwitches = 0;  // of the chunks in the last draw
-    bool drawnPhysicalSky = false;
+    Switches drawnSkySwitches = 0;
     ColourImage image;
     std::optional<TilePool> colours;
     std::optional<ColourClipmap> clipmap;  // of the pool above
@@ -163,8 +166,8 @@ struct ChunkRenderer::State {
     bool makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items);
     void drawShadows(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
                      const Program& program);
-    DrawnWith programsFor(Switches switches, bool physicalSky) const;
-    DrawnWith programsAtHand(Switches switches, bool physicalSky) const;
+    DrawnWith programsFor(Switches switches, Switches skySwitches) const;
+    DrawnWith programsAtHand(Switches switches, Switches skySwitches) const;
     void fillFrame(const View& view, const RenderSettings& settings, ShaderWait wait);
     ColoursDrawn coloursDrawn(const RenderSettings& settings) const;
     bool drawsClipmap() const { return clipmap && clipmap->isFilled(); }
@@ -173,7 +176,6 @@ struct ChunkRenderer::State {
     void drawChunks(std::span<const DrawItem> items, const RenderSettings& settings, const Program* program);
     void beginPicture(const View& view) const;  // sets the state and clears
     void endPicture() const;
-    void drawSky(const Program& program) const;
 };
 
 ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, LayerTextures checker)
@@ -184,7 +186,6 @@ ChunkRenderer::State::State(const RendererConfig& from, HeightPool heightPool, L
       programs(from.programs),
       noise(detailNoiseTexture()),
       chunkArray(makeVertexArray()),
-      skyArray(makeVertexArray()),
       gridVertices(makeBuffer()),
       gridIndices(makeBuffer()),
       instances(makeBuffer()),
@@ -239,12 +240,14 @@ Switches ChunkRenderer::State::chooseSwitches(const View& view, std::span<const 
     const Switches layersSeen =
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
     constexpr Switches seenByPixel = switchDetail | switchSeaSurface | switchShadows;
+    GLint samples = 0;
+    glGetIntegerv(GL_SAMPLES, &samples);
     const bool byVertex = (switches & switchLighting) != 0 && (switches & seenByPixel) == 0 &&
                           (layersSeen & switchLayers) == 0 && !drawsNormals(settings) &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
     const bool physicalAir = (switches & switchAir) != 0 && airIsPhysical(settings);
     return switches | layersSeen | (physicalAir ? switchPhysicalAir : Switches{0}) |
-           (byVertex ? switchLightByVertex : Switches{0}) |
+           (byVertex ? switchLightByVertex : Switches{0}) | (samples > 1 ? switchMultisampled : Switches{0}) |
            (drawsNormals(settings) ? switchNormalTiles : Switches{0}) |
            slidingSwitches(items, settings.stitched);
 }
@@ -430,15 +433,6 @@ void ChunkRenderer::State::endPicture() const {
     glUseProgram(0);
 }
 
-// Draws behind everything, so that only pixels without a chunk are shaded.
-void ChunkRenderer::State::drawSky(const Program& program) const {
-    glDepthMask(GL_FALSE);
-    glUseProgram(program.name());
-    glBindVertexArray(skyArray.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthMask(GL_TRUE);
-}
-
 Result<ChunkRenderer> ChunkRenderer::create(const RendererConfig& config) {
     if (const Result<void> usable = checkContext(); !usable) return tl::unexpected(usable.error());
     Result<HeightPool> pool = HeightPool::create(config.slotCapacity, config.shape);
@@ -560,19 +554,22 @@ Result<void> ChunkRenderer::reloadShaders() {
     return state_->programs->reload();
 }
 
-DrawnWith ChunkRenderer::State::programsFor(Switches switches, bool physicalSky) const {
+DrawnWith ChunkRenderer::State::programsFor(Switches switches, Switches skySwitches) const {
     const bool shadowed = (switches & switchShadows) != 0;
     return {&programs->program({ProgramUse::Chunk, switches}),
             shadowed ? &programs->program(depthKey(switches)) : nullptr,
-            &programs->program(skyKey(physicalSky)), false};
+            (skySwitches & switchAir) != 0 ? &programs->program(skyKey(skySwitches)) : nullptr,
+            &programs->program(starsKey(skySwitches)), false};
 }
 
 // Returns the ready programs. For the others, returns the most similar ready ones and orders the missing
 // ones.
-DrawnWith ChunkRenderer::State::programsAtHand(Switches switches, bool physicalSky) const {
+DrawnWith ChunkRenderer::State::programsAtHand(Switches switches, Switches skySwitches) const {
     programs->takeOrdered();
     const bool shadowed = (switches & switchShadows) != 0;
-    std::vector<ProgramKey> wanted = {{ProgramUse::Chunk, switches}, skyKey(physicalSky)};
+    const bool airInSky = (skySwitches & switchAir) != 0;
+    std::vector<ProgramKey> wanted = {{ProgramUse::Chunk, switches}, starsKey(skySwitches)};
+    if (airInSky) wanted.push_back(skyKey(skySwitches));
     if (shadowed) wanted.push_back(depthKey(switches));
     std::vector<ProgramKey> next = {{ProgramUse::Chunk, otherSliding(switches)}};
     if (shadowed) next.push_back(depthKey(otherSliding(switches)));
@@ -585,9 +582,10 @@ DrawnWith ChunkRenderer::State::programsAtHand(Switches switches, bool physicalS
         }
     };
     order(wanted, Urgency::Now);
-    DrawnWith with{programs->ready(wanted[0]), shadowed ? programs->ready(wanted[2]) : nullptr,
-                   programs->ready(wanted[1]), false};
-    if (with.chunk && with.sky && (with.depth || !shadowed)) {
+    DrawnWith with{programs->ready(wanted[0]), shadowed ? programs->ready(depthKey(switches)) : nullptr,
+                   airInSky ? programs->ready(skyKey(skySwitches)) : nullptr,
+                   programs->ready(starsKey(skySwitches)), false};
+    if (with.chunk && with.stars && (with.sky || !airInSky) && (with.depth || !shadowed)) {
         order(next, Urgency::Later);
         return with;
     }
@@ -595,7 +593,9 @@ DrawnWith ChunkRenderer::State::programsAtHand(Switches switches, bool physicalS
     const bool withoutShadows = shadowed && !with.depth;
     if (!with.chunk || withoutShadows)
         with.chunk = programs->nearest(withoutShadows ? switches & ~switchShadows : switches);
-    if (!with.sky) with.sky = programs->ready(skyKey(false));
+    const Switches analytic = skySwitches & ~switchPhysicalAir;
+    if (!with.sky && airInSky) with.sky = programs->ready(skyKey(analytic));
+    if (!with.stars) with.stars = programs->ready(starsKey(analytic));
     return with;
 }
 
@@ -611,12 +611,15 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.bindInputs();
     const Switches switches =
         state.chooseSwitches(view, items, settings, !tints.empty(), shadowed ? switchShadows : Switches{0});
+    const bool airInSky = settings.atmosphere && !settings.cube;
     const bool physicalSky = state.airIsPhysical(settings);
+    const Switches skySwitches =
+        (airInSky ? switchAir : Switches{0}) | (physicalSky ? switchPhysicalAir : Switches{0});
     const bool mayStandIn = wait == ShaderWait::Never && state.programs->canOrder();
     const DrawnWith with =
-        mayStandIn ? state.programsAtHand(switches, physicalSky) : state.programsFor(switches, physicalSky);
+        mayStandIn ? state.programsAtHand(switches, skySwitches) : state.programsFor(switches, skySwitches);
     state.drawnSwitches = switches;
-    state.drawnPhysicalSky = physicalSky;
+    state.drawnSkySwitches = skySwitches;
     state.shadowsTimer.begin();
     if (with.depth) state.drawShadows(view, items, settings, *with.depth);
     state.shadowsTimer.end();
@@ -626,7 +629,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.drawChunks(with.chunk ? items : std::span<const DrawItem>(), settings, with.chunk);
     state.chunksTimer.end();
     state.skyTimer.begin();
-    if (with.sky) state.drawSky(*with.sky);
+    state.sky.draw(view, with.sky, with.stars);
     state.skyTimer.end();
     state.endPicture();
 
@@ -752,7 +755,8 @@ void ChunkRenderer::draw(const View& view, const CapturedDraw& captured) {
     glBindVertexArray(captured.array.name());
     glDrawElements(GL_TRIANGLES, captured.indexCount, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_CULL_FACE);
-    state.drawSky(state.programs->program(skyKey(state.drawnPhysicalSky)));
+    const DrawnWith with = state.programsFor(state.drawnSwitches & ~switchShadows, state.drawnSkySwitches);
+    state.sky.draw(view, with.sky, with.stars);
     state.endPicture();
 }
 
@@ -788,8 +792,9 @@ GpuMemory ChunkRenderer::gpuMemory() const {
     const std::size_t colourTiles = state_->colours ? state_->colours->bytes() : 0;
     const std::size_t colourClipmap = state_->clipmap ? state_->clipmap->state().bytes() : 0;
     return {state_->pool.layout().bytes(),
-            state_->gridBytes + state_->instanceBytes + sizeof(FrameUniforms) + sizeof(LayersUniforms) +
-                sizeof(SeaUniforms) + (state_->clipmap ? sizeof(ClipmapUniforms) : 0),
+            state_->gridBytes + state_->instanceBytes + state_->sky.bytes() + sizeof(FrameUniforms) +
+                sizeof(LayersUniforms) + sizeof(SeaUniforms) +
+                (state_->clipmap ? sizeof(ClipmapUniforms) : 0),
             state_->image.bytes() + detailNoiseBytes + state_->layers.bytes() +
                 (state_->normals ? state_->normals->bytes() : 0) + state_->air.figures().tableBytes +
                 colourTiles + colourClipmap,

@@ -11,6 +11,7 @@
 #include "planet/gl/device/shader_inputs.h"
 #include "planet/gl/draw/chunk_grid.h"
 #include "planet/gl/draw/chunk_instances.h"
+#include "planet/gl/draw/sky.h"
 #include "planet/gl/store/shadow_maps.h"
 
 namespace planet::gl {
@@ -41,7 +42,12 @@ EmptyInputs bindEmptyInputs(ProgramUse use) {
     for (GLuint binding = 0; binding < uniformBlockCount; ++binding)
         glBindBufferBase(GL_UNIFORM_BUFFER, binding, inputs.uniforms.name());
     glBindVertexArray(inputs.vertices.name());
-    if (use == ProgramUse::Sky) return inputs;
+    if (use == ProgramUse::Sky || use == ProgramUse::Stars) {
+        glBindBuffer(GL_ARRAY_BUFFER, inputs.gridVertices.name());
+        glBufferData(GL_ARRAY_BUFFER, 3 * sizeof(Star), zeros.data(), GL_STATIC_DRAW);
+        describeStars(inputs.gridVertices);
+        return inputs;
+    }
     glBindBuffer(GL_ARRAY_BUFFER, inputs.gridVertices.name());
     glBufferData(GL_ARRAY_BUFFER, sizeof(GridVertex), zeros.data(), GL_STATIC_DRAW);
     glBindBuffer(GL_ARRAY_BUFFER, inputs.instances.name());
@@ -105,13 +111,17 @@ void drawNothing(const Program& program, ProgramUse use, const DrawingState& sta
         (*target)->bind();
         glViewport(0, 0, sizePx, sizePx);
         beginDepthTest(state.reversedZ);
-        if (use == ProgramUse::Sky) glDepthMask(GL_FALSE);
+        if (use == ProgramUse::Sky || use == ProgramUse::Stars) glDepthMask(GL_FALSE);
     }
     // A chunk's three vertices coincide, so no pixel is covered. The sky covers a few pixels of the target
     // made here.
     glUseProgram(program.name());
     if (use == ProgramUse::Sky) {
         glDrawArrays(GL_TRIANGLES, 0, 3);
+    } else if (use == ProgramUse::Stars) {
+        beginStars();
+        glDrawArrays(GL_POINTS, 0, 1);
+        endStars();
     } else {
         glEnable(GL_CULL_FACE);
         glDrawElementsInstanced(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, nullptr, 1);

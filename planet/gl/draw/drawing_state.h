@@ -11,7 +11,7 @@
 
 namespace planet::gl {
 
-enum class ProgramUse { Chunk, Depth, Sky };  // Depth: chunks seen from the sun
+enum class ProgramUse { Chunk, Depth, Sky, Stars };  // Depth: chunks seen from the sun
 
 void beginDepthTest(bool reversedZ);
 // Restores a new context's depth test.

@@ -13,10 +13,6 @@ namespace planet::gl {
 
 namespace {
 
-// The planet's radius in scale heights. On Earth a scale height is then 10 km, slightly more than the real
-// 8.4 km, so that the rim is visible.
-constexpr double radiusInScaleHeights = 640;
-
 // Returns the factor by which lighting steepens slopes. Relief is too flat to see from high up: slopes are
 // lit as they are near the ground, and up to four times as steep from orbit.
 double reliefBoost(const PlanetShape& shape, const View& view) {
@@ -88,7 +84,7 @@ void setDetail(const PlanetShape& shape, const View& view, const ColoursDrawn& c
     const double imageStep = colours.exist() ? 1.0 / colours.faceSizePx : 0;
     uniforms.heightStepPxM = toFloat(apartM * screenScalePx(view));
     uniforms.imageStepPxM = toFloat(1.5 * shape.radiusM * imageStep * screenScalePx(view));
-    uniforms.imageStep = toFloat(imageStep);
+    uniforms.shading.imageStep = toFloat(imageStep);
 }
 
 double linearFromSrgb(double value) {
@@ -102,7 +98,7 @@ void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
     const bool coloursSea = !ramp.empty() && ramp.front().heightM < 0;
     uniforms.imageOpacity = toFloat(std::clamp(settings.imageOpacity, 0.0, 1.0));
     uniforms.rampColoursSea = coloursSea ? 1 : 0;
-    uniforms.perRampTopM = toFloat(1 / settings.rampTopM);
+    uniforms.shading.perRampTopM = toFloat(1 / settings.rampTopM);
     const std::size_t count = std::min(ramp.size(), maxRampStops);
     uniforms.rampStopCount = static_cast<int>(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -120,6 +116,24 @@ void setRamp(const RenderSettings& settings, FrameUniforms& uniforms) {
 
 TileSampling tileSampling(int leafLevel, double anisotropy, double texelsPerPixel) {
     return {leafLevel, toFloat(anisotropy), toFloat(std::log2(texelsPerPixel))};
+}
+
+ShadingFrame shadingFrame(const PlanetShape& shape, const View& view, const RenderSettings& settings) {
+    const double eyeRadiusM = glm::length(view.eyeM);
+    constexpr double radius = radiusScaleHeights;
+    const double eyeScaleHeights = std::max(eyeRadiusM / shape.radiusM - 1, 0.0) * radius;
+    ShadingFrame shading{};
+    shading.sun = glm::normalize(settings.sunDirection);
+    shading.nearGround = toFloat(nearness(shape, eyeRadiusM));
+    shading.eyeUp = eyeRadiusM > 0 ? view.eyeM / eyeRadiusM : glm::dvec3(1, 0, 0);
+    shading.eyeScaleHeights = toFloat(eyeScaleHeights);
+    shading.eyeM = view.eyeM;
+    shading.scaleHeightsPerM = toFloat(radius / shape.radiusM);
+    shading.eyeGrazing = toFloat(std::sqrt(std::numbers::pi / 2 * (radius + eyeScaleHeights)));
+    shading.eyeAir = toFloat(std::exp(-eyeScaleHeights));
+    shading.seaLevelM = toFloat(settings.seaLevelM);
+    shading.earthRadii = toFloat(6.371e6 / shape.radiusM);
+    return shading;
 }
 
 }  // namespace
@@ -156,7 +170,8 @@ Switches switchesFor(const PlanetShape& shape, const View& view, const RenderSet
            when(withImage && rampSeen, switchImageOverRamp) | when(settings.sea, switchSea) |
            when(isSeaSurfaceDrawn(settings, software), switchSeaSurface) | when(tinted, switchTint) |
            when(settings.wireframe, switchWireframe) | when(settings.outlines, switchOutlines) |
-           when(settings.skirtPaint != SkirtPaint::AsGround, switchLoudSkirts);
+           when(settings.skirtPaint != SkirtPaint::AsGround, switchLoudSkirts) |
+           when(software, switchHeldFrame);
 }
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,
@@ -166,13 +181,10 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     const double cubeHalfM = shape.radiusM / std::sqrt(3.0);
     const double tanX = std::tan(view.horizontalFovRad / 2);
     const double tanY = tanX * view.heightPx / view.widthPx;
-    const double eyeRadiusM = glm::length(view.eyeM);
 
     FrameUniforms uniforms{};
     uniforms.faces = faceUniforms(frame, view, cubeHalfM);
     uniforms.clipFromWorld = projection.clipFromCamera * glm::dmat4(cameraFromWorldRotation(view));
-    uniforms.eyeM = view.eyeM;
-    uniforms.sun = glm::normalize(settings.sunDirection);
     uniforms.rayForward = -view.back;
     uniforms.rayRight = tanX * view.right;
     uniforms.rayUp = tanY * view.up;
@@ -185,24 +197,13 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.quantumM = toFloat(shape.quantumM);
     uniforms.referenceStep = frame.referenceStep;
     uniforms.baseHeightM = toFloat(shape.baseHeightM);
-    uniforms.seaLevelM = toFloat(settings.seaLevelM);
     uniforms.seaRiseM =
         toFloat(settings.seaLevelM - (shape.baseHeightM + frame.referenceStep * shape.quantumM));
     uniforms.chunkCellsLog2 = shape.chunkCellsLog2;
     uniforms.reliefBoost = toFloat(reliefBoost(shape, view));
     uniforms.fill = toFloat(settings.light.fill);
 
-    uniforms.eyeUp = eyeRadiusM > 0 ? view.eyeM / eyeRadiusM : glm::dvec3(1, 0, 0);
-    const double eyeScaleHeights = std::max(eyeRadiusM / shape.radiusM - 1, 0.0) * radiusInScaleHeights;
-    uniforms.eyeScaleHeights = toFloat(eyeScaleHeights);
-    uniforms.radiusScaleHeights = radiusInScaleHeights;
-    uniforms.scaleHeightsPerM = toFloat(radiusInScaleHeights / shape.radiusM);
-    uniforms.drawsAtmosphere = settings.atmosphere && !settings.cube ? 1 : 0;
-    uniforms.nearGround = toFloat(nearness(shape, eyeRadiusM));
-    uniforms.groundGrazing = toFloat(std::sqrt(std::numbers::pi / 2 * radiusInScaleHeights));
-    uniforms.eyeGrazing = toFloat(std::sqrt(std::numbers::pi / 2 * (radiusInScaleHeights + eyeScaleHeights)));
-    uniforms.eyeAir = toFloat(std::exp(-eyeScaleHeights));
-
+    uniforms.shading = shadingFrame(shape, view, settings);
     setDetail(shape, view, colours, uniforms);
     setRamp(settings, uniforms);
     uniforms.colours = tileSampling(colours.leafLevel, colours.anisotropy, colours.texelsPerPixel);

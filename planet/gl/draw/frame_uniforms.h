@@ -39,30 +39,39 @@ struct alignas(16) TileSampling {
     float anisotropy, extraLevels;
 };
 
+// The planet's radius in scale heights of the analytic atmosphere. On Earth a scale height is then 10 km, slightly
+// more than the real 8.4 km, so that the rim is visible.
+inline constexpr float radiusScaleHeights = 640;
+
+struct ShadingFrame {
+    glm::vec3 sun;
+    float nearGround;
+    glm::vec3 eyeUp;
+    float eyeScaleHeights;
+    glm::vec3 eyeM;
+    float scaleHeightsPerM;
+    float eyeGrazing, eyeAir, seaLevelM, earthRadii, perRampTopM, imageStep;
+};
+
 struct FrameUniforms {
     std::array<FaceUniforms, faceCount> faces;
     glm::mat4 clipFromWorld;
-    alignas(16) glm::vec3 eyeM, sun, rayForward, rayRight, rayUp;
+    ShadingFrame shading;
+    alignas(16) glm::vec3 rayForward, rayRight, rayUp;
     float pixelRad, skyDepth;
 
     float radiusM, referenceRadiusM, cubeHalfM, quantumM;
     int referenceStep;
-    float baseHeightM, seaLevelM, seaRiseM;
+    float baseHeightM, seaRiseM;
     int chunkCellsLog2;
     float reliefBoost, fill;
 
-    alignas(16) glm::vec3 eyeUp;
-    float eyeScaleHeights, radiusScaleHeights, scaleHeightsPerM;
-    int drawsAtmosphere;
-    float nearGround;
-    float groundGrazing, eyeGrazing, eyeAir;
-
     alignas(16) std::array<DetailOctave, 3> detail;
-    float heightStepPxM, imageStepPxM, imageStep, imageOpacity;
+    float heightStepPxM, imageStepPxM, imageOpacity;
 
     std::array<RampUniforms, maxRampStops> ramp;
     int rampStopCount;
-    float perRampTopM, rampColoursSea;
+    float rampColoursSea;
 
     TileSampling colours, normals;
     float normalRiseM;

@@ -6,12 +6,14 @@
 
 #include "planet/format/colour_tile.h"
 #include "planet/gl/draw/chunk_instances.h"
+#include "planet/gl/draw/frame_uniforms.h"
 #include "planet/gl/draw/layer_uniforms.h"
 #include "planet/gl/draw/render_settings.h"
 #include "planet/gl/draw/sea_uniforms.h"
 #include "planet/gl/store/tile_pool.h"
 #include "planet/select/shadow_cascades.h"
 #include "planet/sphere/vertex_position.h"
+#include "planet/surface/star_field.h"
 
 namespace planet::gl {
 
@@ -44,6 +46,8 @@ std::string sharedConstants() {
     PLANET_DECLARE(layerRepeatLevelStep)
     PLANET_DECLARE(seaWaveCount)
     PLANET_DECLARE(shadowCascadeCount)
+    PLANET_DECLARE(radiusScaleHeights)
+    PLANET_DECLARE(starCellRad)
 #undef PLANET_DECLARE
     return text;
 }

@@ -36,7 +36,9 @@ namespace planet::gl {
     SWITCH(switchTint)           /* each chunk has a tint */                                      \
     SWITCH(switchWireframe)      /* the mesh's lines over a dimmed surface */                     \
     SWITCH(switchOutlines)       /* the chunks' borders */                                        \
-    SWITCH(switchLoudSkirts)     /* skirts in one glaring colour */
+    SWITCH(switchLoudSkirts)     /* skirts in one glaring colour */                               \
+    SWITCH(switchMultisampled)   /* pixels have several samples */                                \
+    SWITCH(switchHeldFrame)      /* vertices hand on what shading reads of the frame */
 // clang-format on
 
 using Switches = std::uint32_t;  // bits of the switches that are on

@@ -28,6 +28,7 @@ uniform int asked;
 uniform float distanceM;
 out vec4 result;
 void main() {
+    shading = frame.shading;
     vec2 at = gl_FragCoord.xy / 32.0;
     float height = 2.0 * at.y - 1.0;
     float turn = 6.2831853 * at.x;
@@ -44,7 +45,7 @@ void main() {
     if (asked == 4) result.rgb = skyRadianceAlong(ray, air.eyeUp);
     if (asked == 5) result.rgb = skyIrradianceAt(high, height);
     if (asked == 6) result.rgb = sunThroughAir(high, height);
-    if (asked == 7) result.rgb = vec3(sunDisk(dot(ray, frame.sun), 0.001));
+    if (asked == 7) result.rgb = vec3(sunDisk(dot(ray, shading.sun), 0.001));
 }
 )";
 constexpr int askable = 8;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "planet/gl/draw/captured_draw.h"
+#include "planet/surface/star_field.h"
 #include "tests/planet/gl/gl_test.h"
 #include "tests/planet/gl/test_planet.h"
 
@@ -581,9 +582,10 @@ TEST_F(ChunkRendererTest, GpuMemoryIsWhatWasAllocated) {
     TestPlanet planet(shape, 100);
     const GpuMemory before = planet.renderer().gpuMemory();
     const std::size_t grid = (17u * 17 + 64) * 4 + (16u * 16 * 6 + 64 * 6) * 2;
+    const std::size_t stars = makeStarField().stars.size() * sizeof(Star);
     EXPECT_EQ(before.heightPool, 170u * 170 * 2);  // ten slots of 17 a side, squared
-    EXPECT_GE(before.meshes, grid);
-    EXPECT_LE(before.meshes, grid + 8192);
+    EXPECT_GE(before.meshes, grid + stars);
+    EXPECT_LE(before.meshes, grid + stars + 8192);
     const auto withMipmaps = [](std::size_t side) { return (4 * side * side - 1) / 3; };
     // Noise with mipmaps, and the layers' checker pattern without.
     EXPECT_EQ(before.textures, (64u * 64 * 64 * 8 - 1) / 7 * 4 + 2 * 4 * 64 * 64);

@@ -45,14 +45,18 @@ protected:
                    double headingDeg = 0) const {
         return viewFrom({}, place.first, place.second, altitudeM, pitchDeg, headingDeg, 96, 72);
     }
+    // Its middle shows ground.
     View anyView(std::mt19937& random) const {
         const auto between = [&](double low, double high) {
             return std::uniform_real_distribution<double>(low, high)(random);
         };
         const auto& place = placesToSee[random() % placesToSee.size()];
-        return smallView(
-            {std::clamp(place.first + between(-3, 3), -90.0, 90.0), place.second + between(-3, 3)},
-            std::exp2(between(14.5, 23)), between(-90, -10), between(0, 360));
+        const double latitudeDeg = std::clamp(place.first + between(-3, 3), -90.0, 90.0);
+        const double longitudeDeg = place.second + between(-3, 3);
+        const double altitudeM = std::exp2(between(14.5, 23));
+        const double horizonDeg = -glm::degrees(std::acos(earthRadiusM / (earthRadiusM + altitudeM)));
+        const double pitchDeg = between(-90, horizonDeg - 8);
+        return smallView({latitudeDeg, longitudeDeg}, altitudeM, pitchDeg, between(0, 360));
     }
 
     // No two texels alike, and no level like another: whatever is off by a texel or a level shows.
