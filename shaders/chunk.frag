@@ -1,7 +1,7 @@
 // Shades the surface: its material, the sun's light on it, and the atmosphere before it.
 
 in vec3 surface;
-in vec4 facePlace;
+in vec3 facePlace;
 in vec4 surfaceNormal;
 in vec3 sunLit;
 in vec3 skyLit;
@@ -11,8 +11,7 @@ in vec4 airArriving;
 in float steep;
 in vec2 gridCoordinate;
 in float onSkirt;
-flat in vec3 faceU;
-flat in vec3 faceV;
+flat in float onFace;
 flat in vec4 tint;
 flat in float meshLevel;
 flat in ShadingFrame held;
@@ -56,21 +55,22 @@ Detail noDetail() {
     return Detail(vec3(0.0), 0.0);
 }
 
-Detail octaveAt(int i, vec3 position) {
-    DetailOctave octave = frame.detail[i];
-    vec4 noise = texture(detailNoise, position * octave.axes + octave.eye) * 2.0 - 256.0 / 255.0;
-    return Detail(octave.axes * noise.xyz * octave.sizeM, noise.w);
+// turn: rotates to the axes of the noise. octave: as in ShadingFrame.
+Detail octaveAt(mat3 turn, vec4 octave, vec3 position) {
+    vec3 place = turn * position / octave.w + octave.xyz;
+    vec4 noise = texture(detailNoise, place) * 2.0 - 256.0 / 255.0;
+    return Detail(noise.xyz * turn, noise.w);
 }
 
 // Returns the detail. The coarsest octave bends the finer ones, and they fade in its valleys, so that no
 // pattern continues through.
 Detail detailAt(vec3 position) {
-    Detail coarse = octaveAt(0, position);
-    vec3 bent = position + 0.07 * frame.detail[1].sizeM * coarse.slope;
+    Detail coarse = octaveAt(detailTurn0, shading.coarseDetail, position);
+    vec3 bent = position + 0.07 * shading.middleDetail.w * coarse.slope;
     float rugged = 0.55 + 0.45 * coarse.height;
-    Detail middle = octaveAt(1, bent);
+    Detail middle = octaveAt(detailTurn1, shading.middleDetail, bent);
     Detail fine = noDetail();
-    if (switchFineDetail) fine = octaveAt(2, bent);
+    if (switchFineDetail) fine = octaveAt(detailTurn2, shading.fineDetail, bent);
     return Detail(coarse.slope + rugged * (1.5 * middle.slope + 1.2 * fine.slope),
                   coarse.height + rugged * (0.8 * middle.height + 0.6 * fine.height));
 }
@@ -81,21 +81,21 @@ vec4 imageColour(Detail detail, float strength) {
     vec2 place = facePlace.xy;
     if (switchDetail) {
         vec2 inside = min(place, 1.0 - place) / (4.0 * shading.imageStep);
-        vec2 aside = vec2(dot(detail.slope, faceU), dot(detail.slope, faceV));
+        vec2 aside = alongFace(int(onFace + 0.5), detail.slope).yz;
         place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * shading.imageStep);
     }
     if (switchTiles) {
         vec3 colour;
         if (switchClipmap) {
-            colour = clipmapColours(place, facePlace.w);
+            colour = clipmapColours(place, onFace);
         } else {
-            colour = streamedColours(place, facePlace.w);
+            colour = streamedColours(place, onFace);
         }
         return vec4(colour, waterOf(colour));
     }
     // The centres of the outermost texels lie on the edges.
     vec2 onImage = place * (1.0 - shading.imageStep) + 0.5 * shading.imageStep;
-    vec4 image = texture(colourImage, vec3(onImage, facePlace.w));
+    vec4 image = texture(colourImage, vec3(onImage, onFace));
     return vec4(image.rgb * image.rgb, image.a);
 }
 
@@ -104,7 +104,7 @@ vec3 seaByDepth(float height) {
     vec3 open = vec3(0.008, 0.036, 0.085);
     vec3 deep = vec3(0.003, 0.014, 0.046);
     float depth = max(-height, 0.0) * shading.perRampTopM;
-    return mix(mix(shelf, open, smoothRise(0.0, 0.22, depth)), deep, smoothRise(0.3, 1.0, depth));
+    return shelf + (open - shelf) * smoothRise(0.0, 0.22, depth) + (deep - open) * smoothRise(0.3, 1.0, depth);
 }
 
 // Returns colours from lowland green to rock to snow; shading.perRampTopM is 1 / the height of the highest
@@ -251,7 +251,7 @@ vec3 throughAir(vec3 light, vec3 position, vec3 ray, vec3 up) {
 
 vec3 groundNormal() {
     vec3 normal = renormalised(surfaceNormal.xyz);
-    if (switchNormalTiles) normal = normalFromTiles(normal, meshLevel, facePlace);
+    if (switchNormalTiles) normal = normalFromTiles(normal, meshLevel, vec4(facePlace, onFace));
     return normal;
 }
 
@@ -268,9 +268,9 @@ vec3 lightByPixel() {
     float height = facePlace.z - shading.seaLevelM;
     if (switchDetail) {
         detail = detailAt(position);
-        rough = between(frame.heightStepPxM * nearness) * (0.05 + 0.95 * surfaceNormal.w);
-        ragged = between(frame.imageStepPxM * nearness);
-        height += 500.0 * rough * detail.height * (frame.radiusM / 6.371e6) * step(0.0, height);
+        rough = between(shading.heightStepPxM * nearness) * (0.05 + 0.95 * surfaceNormal.w);
+        ragged = between(shading.imageStepPxM * nearness);
+        height += 500.0 * rough * detail.height * step(0.0, height) / shading.earthRadii;
         vec3 tilt = rough * (detail.slope - up * dot(detail.slope, up));
         normal = normalize(normal - tilt * inversesqrt(1.0 + 1.5 * dot(tilt, tilt)));
     }
@@ -316,7 +316,7 @@ vec3 flatSurface() {
         Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - shading.seaLevelM, albedo);
         albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - anyWater(material)));
     }
-    return encodeSrgb(clamp(albedo, 0.0, 1.0));
+    return encodeSrgb(albedo);
 }
 
 vec3 litSurface() {

@@ -17,7 +17,7 @@ in vec4 edgeMorph;    // west, east, south, north: [0, 1]
 uniform isampler2DArray heightPool;
 
 out vec3 surface;         // position relative to the eye
-out vec4 facePlace;       // [0, 1] along u and v; height, metres; the face
+out vec3 facePlace;       // [0, 1] along u and v; height, metres
 out vec4 surfaceNormal;   // not unit length; roughness of the ground, [0, 1]
 out vec3 sunLit;          // the sun's light on the ground
 out vec3 skyLit;          // the sky's light on the ground
@@ -27,8 +27,7 @@ out vec4 airArriving;     // lit per vertex: light that the air scatters; ratio 
 out float steep;          // lit per vertex: [0, 1]
 out vec2 gridCoordinate;  // column and row, for the mesh's lines
 out float onSkirt;        // 0 on the ground, 1 at the skirt's lower end
-flat out vec3 faceU;      // the face's axes
-flat out vec3 faceV;
+flat out float onFace;
 flat out vec4 tint;
 flat out float meshLevel;  // level of the tiles whose texels are the mesh's vertices
 
@@ -178,18 +177,18 @@ ivec2 gridPointOf(ivec2 vertex) {
 
 // Returns the position relative to the eye, and in `up` the direction from the planet's centre, of about unit
 // length.
-vec3 positionOf(ivec2 vertex, int heightStep, float drop, out vec3 up) {
-    int face = int(chunkFace);
-    ivec2 gridPoint = gridPointOf(vertex);
-    moveToOwningFace(face, gridPoint);
-    GridPlace place = gridPlace(frame.faces[face], gridPoint);
-    up = frame.faces[face].direction + place.turn;
+vec3 positionOf(OwnedPoint point, int heightStep, float drop, out vec3 up) {
+    GridPlace place = gridPlace(point);
+    up = frame.faces[point.face].direction + place.turn;
     if (switchCube)
-        return positionOnCube(frame.faces[face], place,
-                              frame.baseHeightM + float(heightStep) * frame.quantumM - drop);
+        return positionOnCube(point.face, place, frame.baseHeightM + float(heightStep) * frame.quantumM - drop);
     float rise = float(heightStep - frame.referenceStep) * frame.quantumM;
     if (switchSeaSurface) rise = max(rise, frame.seaRiseM);
-    return positionOnSphere(frame.faces[face], place, rise - drop);
+    return positionOnSphere(point.face, place, rise - drop);
+}
+
+OwnedPoint pointOf(ivec2 vertex) {
+    return ownedPoint(int(chunkFace), gridPointOf(vertex));
 }
 
 // The drawn state of a vertex, or of several mixed.
@@ -199,10 +198,15 @@ struct Drawn {
     float height;  // steps
 };
 
-Drawn ownDrawn(ivec3 corner, ivec2 vertex, float drop) {
+// Returns the state of a vertex that does not slide. point: that of the vertex.
+Drawn drawnAt(ivec3 corner, ivec2 vertex, OwnedPoint point, float drop) {
     vec3 up;
     int heightStep = stepAt(corner, vertex);
-    return Drawn(positionOf(vertex, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
+    return Drawn(positionOf(point, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
+}
+
+Drawn ownDrawn(ivec3 corner, ivec2 vertex, float drop) {
+    return drawnAt(corner, vertex, pointOf(vertex), drop);
 }
 
 Drawn middleOf(Drawn a, Drawn b) {
@@ -226,7 +230,7 @@ void gatherTo(inout Drawn drawn, Drawn to, float amount) {
 // Returns the drawn state of a coarser chunk's vertex, which stitching may have moved along its edge.
 Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
     bool inside = all(greaterThan(vertex, ivec2(0))) && all(lessThan(vertex, ivec2(last)));
-    if (inside || !switchGather) return ownDrawn(corner, vertex, drop);
+    if (inside) return ownDrawn(corner, vertex, drop);
     Slide slide = slideOf(vertex, last);
     vertex = slide.vertex;
     Drawn drawn = ownDrawn(corner, vertex, drop);
@@ -241,7 +245,7 @@ Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
 void main() {
     shading = frame.shading;
     if (switchHeldFrame) held = shading;
-    FaceUniforms face = frame.faces[chunkFace];
+    int face = int(chunkFace);
     int last = 1 << frame.chunkCellsLog2;
     Slide slide = Slide(ivec2(gridVertex), ivec2(0), 0.0, ivec2(0), 0.0);
     if (switchSlide) slide = slideOf(slide.vertex, last);
@@ -253,19 +257,29 @@ void main() {
     float rise = float(heightStep - frame.referenceStep) * frame.quantumM - drop;
 
     vec3 up;
-    Drawn drawn = Drawn(positionOf(vertex, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
+    OwnedPoint point = pointOf(vertex);
+    Drawn drawn = Drawn(positionOf(point, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
     ivec2 before = vertex - slide.aside;
     ivec2 after = vertex + slide.aside;
     if (switchSlide) {
-        Drawn drawnBefore = coarserDrawn(corner, before, last, drop);
-        Drawn drawnAfter = coarserDrawn(corner, after, last, drop);
+        Drawn drawnBefore;
+        Drawn drawnAfter;
+        if (switchGather) {
+            drawnBefore = coarserDrawn(corner, before, last, drop);
+            drawnAfter = coarserDrawn(corner, after, last, drop);
+        } else {
+            // A vertex on an edge of the cube slides along it, so the face that owns it has the other two as well.
+            ivec2 aside = slide.aside << cellLog2();
+            drawnBefore = drawnAt(corner, before, movedBy(point, face, -aside), drop);
+            drawnAfter = drawnAt(corner, after, movedBy(point, face, aside), drop);
+        }
         slideTo(drawn, middleOf(drawnBefore, drawnAfter), slide.amount);
     }
     ivec2 gatherVertex = vertex + slide.onto;
     if (slide.gathered > 0.0) {
         gatherTo(drawn, ownDrawn(corner, gatherVertex, drop), slide.gathered);
         vec3 gatherUp;
-        positionOf(gatherVertex, stepAt(corner, gatherVertex), drop, gatherUp);
+        positionOf(pointOf(gatherVertex), stepAt(corner, gatherVertex), drop, gatherUp);
         up += slide.gathered * (gatherUp - up);
     }
     vec3 position = drawn.position;
@@ -291,7 +305,7 @@ void main() {
         vec2 heightSlope = vec2(steps[0].x, steps[1].x) * (stepsPerSlope * frame.reliefBoost);
         vec2 coordinates = drawn.place * fineCell - 1.0;
         normal = switchCube
-                     ? face.normal * frame.cubeHalfM - heightSlope.x * face.u - heightSlope.y * face.v
+                     ? fromFace(face, vec3(frame.cubeHalfM, -heightSlope))
                      : normalOnSphere(face, coordinates, up, frame.referenceRadiusM + rise, heightSlope);
         normal *= inversesqrt(dot(normal, normal));
         float steepest = max(steps[0].y, steps[1].y) * stepsPerSlope / (0.75 * frame.radiusM);
@@ -302,12 +316,11 @@ void main() {
     }
 
     surface = position;
-    facePlace = vec4(drawn.place * (0.5 * fineCell), height, float(chunkFace));
+    facePlace = vec3(drawn.place * (0.5 * fineCell), height);
+    onFace = float(chunkFace);
     surfaceNormal = vec4(normal, rough);
     gridCoordinate = vec2(gridVertex);
     onSkirt = float(skirt);
-    faceU = face.u;
-    faceV = face.v;
     tint = chunkTint;
     meshLevel = float(int(chunkLevel) + frame.chunkCellsLog2 - 8);
     gl_Position = frame.clipFromWorld * vec4(position, 1.0);

@@ -26,9 +26,8 @@ layout(std140) uniform Clipmap {
 // a corner of the viewer's face must agree on their common edge, so the distance there is the larger of the
 // two, in addition to the distance on the unfolded cube. tests/support/clipmap_levels.h has the same formula.
 float clipmapDistance(vec2 place, int face) {
-    vec3 outward = abs(frame.faces[face].normal);
-    vec3 point = frame.faces[face].normal + (2.0 * place.x - 1.0) * frame.faces[face].u +
-                 (2.0 * place.y - 1.0) * frame.faces[face].v;
+    vec3 outward = abs(fromFace(face, vec3(1.0, 0.0, 0.0)));
+    vec3 point = fromFace(face, vec3(1.0, 2.0 * place - 1.0));
     vec3 apart = abs(point - clipmap.centre);
     vec3 up = clipmap.up;
     float down = dot(apart, up);

@@ -8,15 +8,6 @@ struct FaceUniforms {
     vec3 direction;    // d0
     vec3 originM;      // reference point - eye
     vec3 cubeOriginM;  // the same for the unprojected cube
-    vec3 normal;       // the face's axes
-    vec3 u;
-    vec3 v;
-};
-
-struct DetailOctave {
-    mat3 axes;    // place in the noise = position * axes + eye
-    vec3 eye;
-    float sizeM;  // period of the noise
 };
 
 struct RampUniforms {
@@ -45,6 +36,11 @@ struct ShadingFrame {
     float earthRadii;          // the Earth's radius in radii of the planet
     float perRampTopM;         // 1 / height of the built-in ramp's highest band
     float imageStep;           // one step of the image, [0, 1] across a face
+    vec4 coarseDetail;         // an octave of the detail: the eye's place in the noise, and its period in metres
+    vec4 middleDetail;
+    vec4 fineDetail;
+    float heightStepPxM;       // pixels x metres: the size of a step of the heights at a distance of one metre
+    float imageStepPxM;        // the same for a step of the image
 };
 
 layout(std140) uniform Frame {
@@ -68,10 +64,7 @@ layout(std140) uniform Frame {
     float reliefBoost;  // factor by which lighting steepens slopes
     float fill;         // strength of the fill light
 
-    DetailOctave detail[3];
-    float heightStepPxM;  // pixels x metres: the size of a step of the heights at a distance of one metre
-    float imageStepPxM;   // the same for a step of the image
-    float imageOpacity;   // over the ramp
+    float imageOpacity;  // over the ramp
 
     RampUniforms ramp[maxRampStops];
     int rampStopCount;

@@ -37,7 +37,7 @@ float fillLight(vec3 normal, vec3 toEye, vec3 up) {
 
 // Returns the cross product of the tangents of (R + h) d(u, v), divided by R + h. On an edge of the cube the
 // axes are those of the chunk's face, whichever face computes the position.
-vec3 normalOnSphere(FaceUniforms face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
+vec3 normalOnSphere(int face, vec2 coordinates, vec3 d, float radius, vec2 heightSlope) {
     float u = coordinates.x;
     float v = coordinates.y;
     vec3 roots = sqrt(vec3(1.0 - 0.5 * (u * u + v * v) + u * u * v * v * (1.0 / 3.0),
@@ -45,8 +45,7 @@ vec3 normalOnSphere(FaceUniforms face, vec2 coordinates, vec3 d, float radius, v
     float cross6 = -u * v * (1.0 / 6.0);
     vec3 along = vec3(u * (v * v * (1.0 / 3.0) - 0.5) / roots.x, roots.y, cross6 / roots.z);
     vec3 across = vec3(v * (u * u * (1.0 / 3.0) - 0.5) / roots.x, cross6 / roots.y, roots.z);
-    mat3 world = mat3(face.normal, face.u, face.v);
-    vec3 du = world * along;
-    vec3 dv = world * across;
+    vec3 du = fromFace(face, along);
+    vec3 dv = fromFace(face, across);
     return radius * cross(du, dv) + heightSlope.x * cross(d, dv) + heightSlope.y * cross(du, d);
 }

@@ -33,10 +33,10 @@ vec3 slopeAt(float meshLevel, vec2 place, float face) {
 }
 
 // Returns the direction by Nowell's mapping.
-vec3 directionOf(FaceUniforms face, vec2 c) {
+vec3 directionOf(int face, vec2 c) {
     vec3 roots = sqrt(vec3(1.0 - 0.5 * dot(c, c) + c.x * c.x * c.y * c.y * (1.0 / 3.0),
                            0.5 - c.y * c.y * (1.0 / 6.0), 0.5 - c.x * c.x * (1.0 / 6.0)));
-    return roots.x * face.normal + c.x * roots.y * face.u + c.y * roots.z * face.v;
+    return fromFace(face, vec3(roots.x, c * roots.yz));
 }
 
 // Returns the normal. meshNormal: unit vector, used where no tile applies. meshLevel: level of the tiles
@@ -44,11 +44,11 @@ vec3 directionOf(FaceUniforms face, vec2 c) {
 vec3 normalFromTiles(vec3 meshNormal, float meshLevel, vec4 place) {
     vec3 slope = slopeAt(meshLevel, place.xy, place.w);
     if (slope.z <= 0.0) return meshNormal;
-    FaceUniforms face = frame.faces[int(place.w + 0.5)];
+    int face = int(place.w + 0.5);
     vec2 coordinates = 2.0 * place.xy - 1.0;
     vec2 heightSlope = slope.xy / slope.z * (frame.normalRiseM * frame.reliefBoost);
     vec3 normal = switchCube
-                      ? face.normal * frame.cubeHalfM - heightSlope.x * face.u - heightSlope.y * face.v
+                      ? fromFace(face, vec3(frame.cubeHalfM, -heightSlope))
                       : normalOnSphere(face, coordinates, directionOf(face, coordinates), frame.radiusM + place.z,
                                        heightSlope);
     return normalize(mix(meshNormal, normalize(normal), slope.z));

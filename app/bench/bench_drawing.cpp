@@ -113,7 +113,7 @@ Result<Drawing> openDrawing(const PictureSize& size) {
 }
 
 // The triangles of a selection as a terrain renderer without a planet draws them: a mesh of vertices that morph, with
-// one texture. Skirts are left out.
+// skirts and one texture.
 struct PlainMesh {
     planet::gl::Program program;
     planet::gl::VertexArray array;
@@ -151,6 +151,12 @@ Result<std::vector<glm::vec3>> positionsAt(Scene& scene, const planet::View& vie
         view, items, renderSettingsOf(settings, view, scene.planet->tree()));
 }
 
+// Returns the lower end of a skirt below a vertex. Both are relative to the eye.
+glm::vec3 loweredBy(float depthM, const glm::vec3& vertex, const planet::View& view) {
+    const glm::dvec3 up = glm::normalize(view.eyeM + glm::dvec3(vertex));
+    return vertex - depthM * glm::vec3(up);
+}
+
 // Makes the mesh of what the scene drew last.
 Result<PlainMesh> makePlainMesh(Scene& scene, const planet::View& view, const ViewSettings& settings) {
     const Result<std::vector<glm::vec3>> positions = positionsAt(scene, view, settings, 0);
@@ -171,16 +177,19 @@ Result<PlainMesh> makePlainMesh(Scene& scene, const planet::View& view, const Vi
     const int cells = planet::chunkCells(scene.planet->tree().shape);
     const planet::gl::ChunkGrid grid = planet::gl::chunkGrid(cells);
     const auto size = static_cast<std::size_t>(cells + 1);
-    const std::size_t chunks = positions->size() / (size * size);
+    const std::vector<planet::DrawItem>& drawn = scene.planet->selection().draw;
     std::vector<PlainVertex> vertices;
-    for (std::size_t i = 0; i < positions->size(); ++i) {
-        const glm::vec2 column(static_cast<float>(i % size), static_cast<float>(i / size % size));
-        vertices.push_back({(*positions)[i], (*targets)[i], column / static_cast<float>(cells)});
-    }
     std::vector<std::uint32_t> indices;
-    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-        for (std::uint32_t i = 0; i < grid.gridIndexCount; ++i)
-            indices.push_back(static_cast<std::uint32_t>(chunk * size * size) + grid.indices[i]);
+    for (std::size_t chunk = 0; chunk < drawn.size(); ++chunk) {
+        for (const std::uint16_t index : grid.indices)
+            indices.push_back(static_cast<std::uint32_t>(vertices.size()) + index);
+        for (const planet::gl::GridVertex& vertex : grid.vertices) {
+            const std::size_t at = (chunk * size + vertex.row) * size + vertex.column;
+            const float depthM = vertex.skirt != 0 ? drawn[chunk].skirtDepthM : 0;
+            vertices.push_back({loweredBy(depthM, (*positions)[at], view),
+                                loweredBy(depthM, (*targets)[at], view),
+                                glm::vec2(vertex.column, vertex.row) / static_cast<float>(cells)});
+        }
     }
     PlainMesh mesh{std::move(*program),
                    planet::gl::makeVertexArray(),
@@ -423,12 +432,18 @@ BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& col
     if (!drawing) return tl::unexpected(drawing.error());
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
     if (!file) return tl::unexpected(file.error());
-    const ViewSettings everything;
-    ViewSettings plain = everything;
-    plain.surface.lighting = false;
-    plain.surface.atmosphere = false;
-    plain.surface.detail = planet::gl::FeatureUse::Off;
-    const auto ratioOf = [](double bound) { return BenchAim{.bound = bound, .isOfRatio = true}; };
+    struct Kind {
+        const char* name;
+        ViewSettings settings;
+        double aim;
+    };
+    std::array<Kind, 3> kinds = {{{"as a first start has it", {}, 2.5},
+                                  {"with detail", {}, 4},
+                                  {"without light, air and detail", {}, 1.3}}};
+    kinds[1].settings.surface.detail = planet::gl::FeatureUse::On;
+    kinds[2].settings.surface.lighting = false;
+    kinds[2].settings.surface.atmosphere = false;
+    kinds[2].settings.surface.detail = planet::gl::FeatureUse::Off;
     std::vector<BenchRow> rows;
     // In the small picture, the same chunks have an eighth of the pixels along each side, so vertices count most.
     constexpr int smaller = 8;
@@ -437,23 +452,25 @@ BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& col
         const planet::View view = benchView(file->info().shape, size);
         const std::string picture = fmt::format("{} x {}", size.widthPx, size.heightPx);
         std::vector<Contender> contenders;
-        for (const bool isPlain : {false, true}) {
-            const char* const name = isPlain ? "without light, air and detail" : "as a first start has it";
-            ViewSettings scaled = isPlain ? plain : everything;
+        for (const Kind& kind : kinds) {
+            ViewSettings scaled = kind.settings;
             scaled.lod.tauPx /= divisor;
             Result<Contender> opened =
-                openContender(fmt::format("{}, {}", picture, name), scaled, planet, view, colourImage);
+                openContender(fmt::format("{}, {}", picture, kind.name), scaled, planet, view, colourImage);
             if (!opened) return tl::unexpected(opened.error());
             contenders.push_back(std::move(*opened));
         }
         for (Contender& contender : contenders) drawFrame(contender, view);
-        const Result<PlainMesh> mesh = makePlainMesh(contenders[1].scene, view, contenders[1].settings);
+        Contender& plainest = contenders.back();
+        const Result<PlainMesh> mesh = makePlainMesh(plainest.scene, view, plainest.settings);
         if (!mesh) return tl::unexpected(mesh.error());
-        std::vector<FrameSubject> subjects = {
-            {contenders[0].name, [&] { drawFrame(contenders[0], view); }, ratioOf(2.5)},
-            {contenders[1].name, [&] { drawFrame(contenders[1], view); }, ratioOf(1.3)},
-            {picture + ", morph and one texture", [&] { drawPlain(*mesh, view); }}};
-        if (divisor != 1) subjects[0].aim = subjects[1].aim = std::nullopt;
+        std::vector<FrameSubject> subjects;
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            FrameSubject subject{contenders[i].name, [&, i] { drawFrame(contenders[i], view); }};
+            if (divisor == 1) subject.aim = BenchAim{.bound = kinds[i].aim, .isOfRatio = true};
+            subjects.push_back(std::move(subject));
+        }
+        subjects.push_back({picture + ", morph and one texture", [&] { drawPlain(*mesh, view); }});
         addFrames(subjects, "one texture", options.rounds,
                   contenders[0].scene.renderer.chunks().capabilities().software, rows);
         for (const Contender& contender : contenders)

@@ -17,12 +17,13 @@ namespace planet::gl {
 
 namespace {
 
-constexpr auto chunkVertexFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"});
+constexpr auto chunkVertexFiles =
+    std::to_array<std::string_view>({"frame.glsl", "atmosphere.glsl", "air.glsl", "face_axes.glsl",
+                                     "ground.glsl", "vertex_position.glsl", "chunk.vert"});
 constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "ground.glsl", "tone.glsl", "water.glsl", "sea.glsl",
-     "shadows.glsl", "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl", "colour_clipmap.glsl",
-     "normal_tiles.glsl", "chunk.frag"});
+    {"frame.glsl", "atmosphere.glsl", "air.glsl", "face_axes.glsl", "ground.glsl", "tone.glsl", "water.glsl",
+     "sea.glsl", "shadows.glsl", "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl",
+     "colour_clipmap.glsl", "normal_tiles.glsl", "chunk.frag"});
 constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr auto skyFragmentFiles = std::to_array<std::string_view>(

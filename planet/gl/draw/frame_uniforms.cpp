@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -33,7 +34,6 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
     std::array<FaceUniforms, faceCount> all{};
     for (const Face face : allFaces) {
         const FaceReference& reference = frame.faces[static_cast<std::size_t>(face)];
-        const FaceAxes& axes = faceAxes(face);
         FaceUniforms& uniforms = all[static_cast<std::size_t>(face)];
         uniforms.grid = {reference.gridU, reference.gridV};
         uniforms.coordinates = {reference.u0, reference.v0};
@@ -41,9 +41,6 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
         uniforms.direction = reference.direction;
         uniforms.originM = reference.originM;
         uniforms.cubeOriginM = cubeHalfM * cubePoint(face, reference.u0, reference.v0) - view.eyeM;
-        uniforms.normal = axes.normal;
-        uniforms.u = axes.u;
-        uniforms.v = axes.v;
     }
     return all;
 }
@@ -51,15 +48,6 @@ std::array<FaceUniforms, faceCount> faceUniforms(const VertexFrame& frame, const
 // The periods of the octaves of the detail noise, metres, for height samples 1 m apart. The longest waves are
 // about as long as the shortest waves of the heights.
 constexpr std::array<double, 3> detailSizes = {8, 1.3, 0.22};
-
-// Rotates each octave differently, so that the ground cuts the noise at odd angles and shows no repeats.
-glm::dmat3 detailTurn(int octave) {
-    const double a = 0.7 + 1.1 * octave;
-    const double b = 0.5 + 0.4 * octave;
-    const glm::dmat3 aroundZ({std::cos(a), std::sin(a), 0}, {-std::sin(a), std::cos(a), 0}, {0, 0, 1});
-    const glm::dmat3 aroundX({1, 0, 0}, {0, std::cos(b), std::sin(b)}, {0, -std::sin(b), std::cos(b)});
-    return aroundZ * aroundX;
-}
 
 double samplesApartM(const PlanetShape& shape) {
     return 1.5 * shape.radiusM / faceCells(shape);
@@ -70,21 +58,19 @@ double samplesApartM(const PlanetShape& shape) {
 void setDetail(const PlanetShape& shape, const View& view, const ColoursDrawn& colours,
                FrameUniforms& uniforms) {
     const double apartM = samplesApartM(shape);
-    for (int octave = 0; octave < 3; ++octave) {
+    const auto octaveAt = [&](int octave) {
         const double sizeM = detailSizes[static_cast<std::size_t>(octave)] * apartM;
-        const glm::dmat3 rows = glm::transpose(detailTurn(octave));
-        DetailOctave& detail = uniforms.detail[static_cast<std::size_t>(octave)];
-        for (int row = 0; row < 3; ++row) {
-            const double eyeAt = glm::dot(rows[row], view.eyeM) / sizeM;
-            detail.axes[row] = glm::dvec4(rows[row] / sizeM, 0);
-            detail.eye[row] = toFloat(eyeAt - std::floor(eyeAt));
-        }
-        detail.sizeM = toFloat(sizeM);
-    }
+        const glm::dvec3 eye = detailTurn(octave) * view.eyeM / sizeM;
+        return glm::vec4(eye - glm::floor(eye), toFloat(sizeM));
+    };
+    ShadingFrame& shading = uniforms.shading;
+    shading.coarseDetail = octaveAt(0);
+    shading.middleDetail = octaveAt(1);
+    shading.fineDetail = octaveAt(2);
     const double imageStep = colours.exist() ? 1.0 / colours.faceSizePx : 0;
-    uniforms.heightStepPxM = toFloat(apartM * screenScalePx(view));
-    uniforms.imageStepPxM = toFloat(1.5 * shape.radiusM * imageStep * screenScalePx(view));
-    uniforms.shading.imageStep = toFloat(imageStep);
+    shading.heightStepPxM = toFloat(apartM * screenScalePx(view));
+    shading.imageStepPxM = toFloat(1.5 * shape.radiusM * imageStep * screenScalePx(view));
+    shading.imageStep = toFloat(imageStep);
 }
 
 double linearFromSrgb(double value) {
@@ -137,6 +123,14 @@ ShadingFrame shadingFrame(const PlanetShape& shape, const View& view, const Rend
 }
 
 }  // namespace
+
+glm::dmat3 detailTurn(int octave) {
+    const double a = 0.7 + 1.1 * octave;
+    const double b = 0.5 + 0.4 * octave;
+    const glm::dmat3 aroundZ({std::cos(a), std::sin(a), 0}, {-std::sin(a), std::cos(a), 0}, {0, 0, 1});
+    const glm::dmat3 aroundX({1, 0, 0}, {0, std::cos(b), std::sin(b)}, {0, -std::sin(b), std::cos(b)});
+    return aroundZ * aroundX;
+}
 
 void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUniforms& uniforms) {
     uniforms.normals = tileSampling(normals.leafLevel, normals.anisotropy, normals.texelsPerPixel);

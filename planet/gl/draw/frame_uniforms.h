@@ -2,10 +2,11 @@
 #pragma once
 
 #include <array>
-#include <glm/mat3x4.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "planet/gl/draw/projection.h"
 #include "planet/gl/draw/render_settings.h"
@@ -20,13 +21,7 @@ namespace planet::gl {
 struct FaceUniforms {
     glm::ivec2 grid;
     glm::vec2 coordinates;
-    alignas(16) glm::vec3 roots, direction, originM, cubeOriginM, normal, u, v;
-};
-
-struct DetailOctave {
-    glm::mat3x4 axes;  // std140's mat3
-    glm::vec3 eye;
-    float sizeM;
+    alignas(16) glm::vec3 roots, direction, originM, cubeOriginM;
 };
 
 struct RampUniforms {
@@ -51,6 +46,8 @@ struct ShadingFrame {
     glm::vec3 eyeM;
     float scaleHeightsPerM;
     float eyeGrazing, eyeAir, seaLevelM, earthRadii, perRampTopM, imageStep;
+    alignas(16) glm::vec4 coarseDetail, middleDetail, fineDetail;
+    float heightStepPxM, imageStepPxM;
 };
 
 struct FrameUniforms {
@@ -66,8 +63,7 @@ struct FrameUniforms {
     int chunkCellsLog2;
     float reliefBoost, fill;
 
-    alignas(16) std::array<DetailOctave, 3> detail;
-    float heightStepPxM, imageStepPxM, imageOpacity;
+    float imageOpacity;
 
     std::array<RampUniforms, maxRampStops> ramp;
     int rampStopCount;
@@ -96,6 +92,10 @@ struct NormalsDrawn {
     double texelsPerPixel = 1;  // TileSettings
     double quantumM = 1;        // of the heights that they were made from
 };
+
+// Returns the rotation from world axes to those of an octave of the detail noise, [0, 2]. Each has another, so that the
+// ground cuts the noise at odd angles and shows no repeats.
+glm::dmat3 detailTurn(int octave);
 
 void setNormals(const PlanetShape& shape, const NormalsDrawn& normals, FrameUniforms& uniforms);
 

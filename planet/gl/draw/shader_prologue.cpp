@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <type_traits>
 
 #include "planet/format/colour_tile.h"
@@ -49,6 +51,11 @@ std::string sharedConstants() {
     PLANET_DECLARE(radiusScaleHeights)
     PLANET_DECLARE(starCellRad)
 #undef PLANET_DECLARE
+    for (int octave = 0; octave < 3; ++octave) {
+        const glm::mat3 turn = detailTurn(octave);
+        text += fmt::format("const mat3 detailTurn{} = mat3({:.9g});\n", octave,
+                            fmt::join(glm::value_ptr(turn), glm::value_ptr(turn) + 9, ", "));
+    }
     return text;
 }
 

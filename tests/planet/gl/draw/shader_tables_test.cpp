@@ -44,12 +44,9 @@ struct Member {
             sizeof(decltype(Type::member)::value_type)                                        \
     }
 
-const std::vector<Member> faceMembers = {
-    MEMBER(FaceUniforms, grid),      MEMBER(FaceUniforms, coordinates), MEMBER(FaceUniforms, roots),
-    MEMBER(FaceUniforms, direction), MEMBER(FaceUniforms, originM),     MEMBER(FaceUniforms, cubeOriginM),
-    MEMBER(FaceUniforms, normal),    MEMBER(FaceUniforms, u),           MEMBER(FaceUniforms, v)};
-const std::vector<Member> octaveMembers = {MEMBER(DetailOctave, axes), MEMBER(DetailOctave, eye),
-                                           MEMBER(DetailOctave, sizeM)};
+const std::vector<Member> faceMembers = {MEMBER(FaceUniforms, grid),    MEMBER(FaceUniforms, coordinates),
+                                         MEMBER(FaceUniforms, roots),   MEMBER(FaceUniforms, direction),
+                                         MEMBER(FaceUniforms, originM), MEMBER(FaceUniforms, cubeOriginM)};
 const std::vector<Member> stopMembers = {MEMBER(RampUniforms, root), MEMBER(RampUniforms, startM),
                                          MEMBER(RampUniforms, perM)};
 const std::vector<Member> samplingMembers = {
@@ -68,12 +65,15 @@ const std::vector<Member> layerMembers = {STRUCT(LayerUniforms, heightLines, lin
                                           MEMBER(LayerUniforms, noiseComponent),
                                           MEMBER(LayerUniforms, slice)};
 const std::vector<Member> shadingMembers = {
-    MEMBER(ShadingFrame, sun),         MEMBER(ShadingFrame, nearGround),
-    MEMBER(ShadingFrame, eyeUp),       MEMBER(ShadingFrame, eyeScaleHeights),
-    MEMBER(ShadingFrame, eyeM),        MEMBER(ShadingFrame, scaleHeightsPerM),
-    MEMBER(ShadingFrame, eyeGrazing),  MEMBER(ShadingFrame, eyeAir),
-    MEMBER(ShadingFrame, seaLevelM),   MEMBER(ShadingFrame, earthRadii),
-    MEMBER(ShadingFrame, perRampTopM), MEMBER(ShadingFrame, imageStep)};
+    MEMBER(ShadingFrame, sun),          MEMBER(ShadingFrame, nearGround),
+    MEMBER(ShadingFrame, eyeUp),        MEMBER(ShadingFrame, eyeScaleHeights),
+    MEMBER(ShadingFrame, eyeM),         MEMBER(ShadingFrame, scaleHeightsPerM),
+    MEMBER(ShadingFrame, eyeGrazing),   MEMBER(ShadingFrame, eyeAir),
+    MEMBER(ShadingFrame, seaLevelM),    MEMBER(ShadingFrame, earthRadii),
+    MEMBER(ShadingFrame, perRampTopM),  MEMBER(ShadingFrame, imageStep),
+    MEMBER(ShadingFrame, coarseDetail), MEMBER(ShadingFrame, middleDetail),
+    MEMBER(ShadingFrame, fineDetail),   MEMBER(ShadingFrame, heightStepPxM),
+    MEMBER(ShadingFrame, imageStepPxM)};
 const std::vector<Member> noiseMembers = {MEMBER(NoiseOctave, cell), MEMBER(NoiseOctave, cellsPerM),
                                           MEMBER(NoiseOctave, inside)};
 const std::vector<Member> repeatMembers = {MEMBER(RepeatUniforms, eye), MEMBER(RepeatUniforms, perM)};
@@ -109,9 +109,6 @@ const std::map<UniformBlock, BlockMembers> blockMembers = {
        MEMBER(FrameUniforms, chunkCellsLog2),
        MEMBER(FrameUniforms, reliefBoost),
        MEMBER(FrameUniforms, fill),
-       STRUCTS(FrameUniforms, detail, octaveMembers),
-       MEMBER(FrameUniforms, heightStepPxM),
-       MEMBER(FrameUniforms, imageStepPxM),
        MEMBER(FrameUniforms, imageOpacity),
        STRUCTS(FrameUniforms, ramp, stopMembers),
        MEMBER(FrameUniforms, rampStopCount),
