@@ -1,6 +1,6 @@
 // Draws stars as points at the far depth.
 
-in vec3 star;         // direction, of any length
+in vec3 star;  // unit vector
 in float starLight;
 
 flat out vec3 before;   // light of the sky before the star
@@ -15,7 +15,7 @@ const float farApartPx = 6.0;
 
 void main() {
     shading = frame.shading;
-    SkyLight sky = skyAlong(normalize(star), frame.pixelRad);
+    SkyLight sky = skyAlong(star, frame.pixelRad);
     before = max(sky.light, 0.0);
     float apart = min(starCellRad / (frame.pixelRad * farApartPx), 1.0);
     lit = vec3(0.95, 0.97, 1.0) * sky.through * (starLight * apart * apart * apart);

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
+
+#include "planet/sphere/cube_sphere.h"
 
 namespace planet {
 
@@ -25,12 +26,10 @@ float hash(glm::vec3 p) {
     return glm::fract((p.x + p.y) * p.z);
 }
 
-// Faces are those of the axes, from -x to z. sides: in [-1, 1].
-glm::vec3 onCube(int face, const glm::vec2& sides) {
-    const float along = face % 2 == 0 ? -1.0F : 1.0F;
-    const std::array<glm::vec3, 3> places = {
-        {{along, sides.x, sides.y}, {sides.y, along, sides.x}, {sides.x, sides.y, along}}};
-    return places[static_cast<std::size_t>(face / 2)];
+// Returns a unit vector to a place on the grid of a face.
+glm::dvec3 directionOfCell(int face, const glm::vec2& cell) {
+    const glm::dvec2 place = glm::dvec2(cell) / double{cellsToEdge};
+    return sphereFromCube(cubePoint(static_cast<Face>(face), place.x, place.y));
 }
 
 void addStar(int face, int column, int row, std::vector<Star>& stars) {
@@ -42,15 +41,15 @@ void addStar(int face, int column, int row, std::vector<Star>& stars) {
     if (pick < shareWithout) return;
     const glm::vec2 within = glm::vec2(random(31), random(57)) * 0.7F + 0.15F;
     const float magnitude = (pick - shareWithout) / (1 - shareWithout);
-    stars.push_back({onCube(face, (cell + within) / static_cast<float>(cellsToEdge)),
-                     0.02F + 0.55F * std::pow(magnitude, 9.0F)});
+    stars.push_back(
+        {glm::vec3(directionOfCell(face, cell + within)), 0.02F + 0.55F * std::pow(magnitude, 9.0F)});
 }
 
 StarTile tileAt(int face, int column, int row) {
     const auto corner = [&](int right, int up) {
         const glm::vec2 cell(static_cast<float>((column + right) * tileCells - cellsToEdge),
                              static_cast<float>((row + up) * tileCells - cellsToEdge));
-        return glm::normalize(glm::dvec3(onCube(face, cell / static_cast<float>(cellsToEdge))));
+        return directionOfCell(face, cell);
     };
     const std::array<glm::dvec3, 4> corners = {corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
     StarTile tile;
@@ -65,7 +64,7 @@ StarTile tileAt(int face, int column, int row) {
 
 StarField makeStarField() {
     StarField field;
-    for (int face = 0; face < 6; ++face) {
+    for (int face = 0; face < faceCount; ++face) {
         for (int place = 0; place < tilesAcross * tilesAcross; ++place) {
             const int column = place % tilesAcross;
             const int row = place / tilesAcross;

@@ -13,8 +13,8 @@ namespace planet {
 inline constexpr float starCellRad = 1.0F / 90;
 
 struct Star {
-    glm::vec3 onCube{0};  // direction; not of unit length
-    float light = 0;      // at its centre, of a white level square in full sun
+    glm::vec3 direction{0};  // unit vector
+    float light = 0;         // at its centre, of a white level square in full sun
 };
 
 // The stars of one square of a cube's face.
@@ -31,7 +31,7 @@ struct StarField {
 };
 
 // Returns about 27,000 stars, always the same. Each lies in a cell of its own of a grid on the cube's faces, at
-// least 0.15 cells from the cell's border.
+// least 0.15 cells from the cell's border. Nowell's mapping to the sphere (cube_sphere.h) keeps them evenly spread.
 StarField makeStarField();
 
 // A run of stars.

@@ -9,7 +9,7 @@ namespace planet::gl {
 namespace {
 
 constexpr auto vertexInputs =
-    std::to_array<VertexInput>({{"star", 3, GL_FLOAT, InputKind::Float, offsetof(Star, onCube)},
+    std::to_array<VertexInput>({{"star", 3, GL_FLOAT, InputKind::Float, offsetof(Star, direction)},
                                 {"starLight", 1, GL_FLOAT, InputKind::Float, offsetof(Star, light)}});
 
 void drawStars(const StarField& field, const View& view) {

@@ -2,20 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <vector>
+
+#include "planet/sphere/cube_sphere.h"
 
 namespace planet {
 namespace {
 
-glm::dvec3 directionTo(const Star& star) {
-    return glm::normalize(glm::dvec3(star.onCube));
-}
-
 // Whether the picture shows the star.
 bool shows(const View& view, const Star& star) {
-    const glm::dvec3 direction = directionTo(star);
+    const glm::dvec3 direction = glm::dvec3(star.direction);
     const double ahead = -glm::dot(direction, view.back);
     const double tanX = std::tan(view.horizontalFovRad / 2);
     const double tanY = tanX * view.heightPx / view.widthPx;
@@ -26,17 +26,30 @@ bool shows(const View& view, const Star& star) {
 TEST(StarField, HasOneStarInSevenCellsOfEachFace) {
     const StarField field = makeStarField();
     constexpr double cells = 180.0 * 180;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const float along : {-1.0F, 1.0F}) {
-            int count = 0;
-            for (const Star& star : field.stars) count += star.onCube[axis] == along;
-            EXPECT_NEAR(count / cells, 0.14, 0.01) << axis << " " << along;
-        }
+    for (const Face face : allFaces) {
+        const auto isOnFace = [&](const Star& star) {
+            return glm::dot(cubeFromSphere(star.direction), faceAxes(face).normal) > 1 - 1e-6;
+        };
+        const auto count = std::count_if(field.stars.begin(), field.stars.end(), isOnFace);
+        EXPECT_NEAR(static_cast<double>(count) / cells, 0.14, 0.01) << faceName(face);
     }
     for (const Star& star : field.stars) {
         EXPECT_GE(star.light, 0.02F);
         EXPECT_LE(star.light, 0.57F);
     }
+}
+
+TEST(StarField, IsAsDenseAtTheCornersOfTheCubeAsInTheMiddleOfItsFaces) {
+    const StarField field = makeStarField();
+    const auto within15Deg = [&](const glm::dvec3& direction) {
+        return std::count_if(field.stars.begin(), field.stars.end(), [&](const Star& star) {
+            return glm::dot(glm::dvec3(star.direction), direction) > std::cos(glm::radians(15.0));
+        });
+    };
+    const auto middle = static_cast<double>(within15Deg({1, 0, 0}));
+    const auto corner = static_cast<double>(within15Deg(glm::normalize(glm::dvec3(1, 1, 1))));
+    EXPECT_GT(corner / middle, 0.7);
+    EXPECT_LT(corner / middle, 1.5);
 }
 
 TEST(StarField, TilesHoldTheStarsBetweenTheirCorners) {
@@ -46,7 +59,7 @@ TEST(StarField, TilesHoldTheStarsBetweenTheirCorners) {
         ASSERT_EQ(tile.first, next);
         next += tile.count;
         for (std::uint32_t i = tile.first; i < next; ++i)
-            EXPECT_GE(glm::dot(directionTo(field.stars[i]), tile.middle), tile.reachCos);
+            EXPECT_GE(glm::dot(glm::dvec3(field.stars[i].direction), tile.middle), tile.reachCos);
     }
     EXPECT_EQ(next, field.stars.size());
 }

@@ -53,7 +53,7 @@ TEST_F(Stars, AreWhereTheirDirectionsAreAndNowhereElse) {
         std::vector<bool> isNearStar(std::size_t{widthPx} * heightPx);
         int bright = 0;
         for (const Star& star : field_.stars) {
-            const std::optional<glm::dvec2> place = placeOf(view, glm::normalize(glm::dvec3(star.onCube)));
+            const std::optional<glm::dvec2> place = placeOf(view, star.direction);
             if (!place) continue;
             for (int y = -4; y <= 3; ++y) {
                 for (int x = -4; x <= 3; ++x)
