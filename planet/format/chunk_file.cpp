@@ -38,12 +38,7 @@ Steps cutQuarter(const StepsView& fine, int cells, int quadrant) {
                 .copyTo(std::span(quarter).subspan(j * side, side));
         return Steps(std::span<const std::int32_t>(quarter));
     }
-    std::vector<std::int16_t> quarter(side * side);
-    for (std::size_t j = 0; j < side; ++j) {
-        const auto from = fine.narrow().subspan((row + j) * fineSide + column, side);
-        std::copy(from.begin(), from.end(), quarter.begin() + static_cast<std::ptrdiff_t>(j * side));
-    }
-    return Steps(quarter, fine.base(), fine.scale());
+    return Steps(fine.narrow().subspan(row * fineSide + column), fineSide, side, fine.base(), fine.scale());
 }
 
 // Returns whether the values of a chunk with children are in range.

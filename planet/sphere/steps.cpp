@@ -75,6 +75,16 @@ Steps::Steps(std::span<const std::int16_t> narrow, std::int32_t base, std::int32
     assert(scale > 0);
 }
 
+Steps::Steps(std::span<const std::int16_t> narrow, std::size_t rowApart, std::size_t side, std::int32_t base,
+             std::int32_t scale)
+    : size_(static_cast<std::uint32_t>(side * side)), base_(base), scale_(scale) {
+    assert(scale > 0 && side > 0 && rowApart >= side && narrow.size() >= (side - 1) * rowApart + side);
+    memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes());
+    const std::size_t rowBytes = side * sizeof(std::int16_t);
+    for (std::size_t row = 0; row < side; ++row)
+        std::memcpy(memory_.get() + row * rowBytes, narrow.data() + row * rowApart, rowBytes);
+}
+
 Steps::Steps(std::span<const std::int32_t> steps) {
     if (steps.empty()) return;
     const auto [lowest, highest] = extremesOf(steps.data(), steps.size());

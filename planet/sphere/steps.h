@@ -121,6 +121,10 @@ public:
         : Steps(std::span<const std::int16_t>(steps), 0, 1) {}
     // Copies the steps base + scale * n of 16-bit numbers n. scale: > 0.
     Steps(std::span<const std::int16_t> narrow, std::int32_t base, std::int32_t scale);
+    // Copies such steps of a square of a larger grid. narrow: from the square's first step to at least its last one.
+    // rowApart: from one row to the next, >= side.
+    Steps(std::span<const std::int16_t> narrow, std::size_t rowApart, std::size_t side, std::int32_t base,
+          std::int32_t scale);
     // Copies steps, in 2 bytes each if they fit.
     explicit Steps(std::span<const std::int32_t> steps);
 

@@ -1,8 +1,11 @@
 #include "planet/sphere/steps.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 #include <vector>
 
 namespace planet {
@@ -35,6 +38,14 @@ TEST(Steps, takeTwoBytesWhereTheyFitAndAreAlwaysTheSame) {
         EXPECT_EQ(steps.view().subspan(1, c.steps.size() - 1).toVector(),
                   Wide(c.steps.begin() + 1, c.steps.end()));
     }
+}
+
+TEST(Steps, ofASquareAreThoseOfTheGrid) {
+    std::vector<std::int16_t> grid(5 * 5);
+    std::iota(grid.begin(), grid.end(), std::int16_t{-9});
+    const std::span<const std::int16_t> all = grid;
+    const Steps square(all.subspan(1 * 5 + 2), 5, 3, 100, 2);
+    EXPECT_THAT(square.view().toVector(), testing::ElementsAre(96, 98, 100, 106, 108, 110, 116, 118, 120));
 }
 
 TEST(Steps, ofSixteenBitsLieInMemoryAsTheyAre) {
