@@ -133,6 +133,7 @@ void addCounters(const planet::gl::RenderCounters& counters, planet::gl::RenderC
     sums.skirtTriangles += counters.skirtTriangles;
     sums.uploads += counters.uploads;
     sums.standIn |= counters.standIn;
+    sums.newPrograms += counters.newPrograms;
     sums.chunksMs += counters.chunksMs;
     sums.skyMs += counters.skyMs;
     sums.shadowsMs += counters.shadowsMs;
@@ -224,6 +225,11 @@ void drawItems(Scene& scene, const planet::View& renderView, const ViewSettings&
     scene.drawCpuMs += watch.elapsedMs();
     addCounters(scene.renderer.chunks().counters(), scene.drawn);
     scene.drawn.standIn |= scene.colourReading != nullptr;
+}
+
+void forgetDraws(Scene& scene) {
+    scene.drawCpuMs = 0;
+    scene.drawn = {.uploads = scene.drawn.uploads};
 }
 
 std::vector<std::string> takeProblems(Scene& scene) {

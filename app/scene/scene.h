@@ -115,6 +115,9 @@ bool settleWhile(const Settle& settle, const GoOn& goOn) {
 // Returns the Error of a view that did not settle within settleTimeoutS.
 tl::unexpected<planet::Error> loadingTimedOut();
 
+// Forgets what the draws since the last step drew and took, so that another draw of the same frame counts instead.
+void forgetDraws(Scene& scene);
+
 // Returns the figures of the planet and its renderer: selection 0, paging, stage times, drawing, and GPU
 // memory. The caller fills in the rest.
 FrameStats statsOf(const Scene& scene);

@@ -145,6 +145,7 @@ Result<void> ChunkPrograms::reload() {
     programs->linked_[{ProgramUse::Chunk, lastSwitches_}] = {std::move(*last), true};
     programs->lastSwitches_ = lastSwitches_;
     programs->reloads_ = reloads_ + 1;
+    programs->firstDraws_ = firstDraws_;
     *this = std::move(*programs);
     return {};
 }
@@ -160,7 +161,7 @@ const Program& ChunkPrograms::program(const ProgramKey& key) {
     if (fresh) {
         if (Result<Program> made = linked(*texts_, key)) found->second.program = std::move(*made);
     }
-    found->second.drawn = true;
+    if (!std::exchange(found->second.drawn, true)) ++firstDraws_;
     return orPlainest(key, found->second);
 }
 

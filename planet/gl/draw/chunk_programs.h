@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -54,6 +55,8 @@ public:
     // Returns the program, compiling it if needed. If the driver rejects a chunk program, returns the one
     // without switches; for other uses, returns a program with name 0.
     const Program& program(const ProgramKey& key);
+    // Counts the programs that program() returned for their first draw.
+    std::uint32_t firstDraws() const { return firstDraws_; }
 
     // Returns whether a worker compiles in the background. The functions from here to nearest() never wait.
     bool canOrder() const;
@@ -107,6 +110,7 @@ private:
     std::shared_ptr<Delivery> delivery_;
     Switches lastSwitches_ = 0;  // of a chunk program
     int reloads_ = 0;
+    std::uint32_t firstDraws_ = 0;
     Program faceImage_, clipmapFill_;
 };
 

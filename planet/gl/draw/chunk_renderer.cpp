@@ -615,6 +615,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     const bool physicalSky = state.airIsPhysical(settings);
     const Switches skySwitches =
         (airInSky ? switchAir : Switches{0}) | (physicalSky ? switchPhysicalAir : Switches{0});
+    const std::uint32_t drawnBefore = state.programs->firstDraws();
     const bool mayStandIn = wait == ShaderWait::Never && state.programs->canOrder();
     const DrawnWith with =
         mayStandIn ? state.programsAtHand(switches, skySwitches) : state.programsFor(switches, skySwitches);
@@ -636,6 +637,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.counters.chunksMs = state.chunksTimer.lastMs();
     state.counters.skyMs = state.skyTimer.lastMs();
     state.counters.shadowsMs = shadowed ? state.shadowsTimer.lastMs() : 0;
+    state.counters.newPrograms = state.programs->firstDraws() - drawnBefore;
     state.counters.uploads = std::exchange(state.uploads, 0);
     state.counters.standIn =
         with.standIn || (state.wantsPhysicalAir(settings) && !physicalSky && state.air.figures().working);

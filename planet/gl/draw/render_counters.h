@@ -18,6 +18,8 @@ struct RenderCounters {
     // With ShaderWait::Never: the programs for the settings are still being compiled, or the first tables of
     // the atmosphere computed. Other programs drew the frame, or none, so it does not show the settings.
     bool standIn = false;
+    // Programs that were drawn with for the first time. The draw waited until the driver had compiled them.
+    std::uint32_t newPrograms = 0;
 
     std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
 };
