@@ -81,7 +81,7 @@ vec3 coloursOfClipmap(int level, vec2 place, float face, vec2 dx, vec2 dy) {
 vec3 clipmapColours(vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
-    float level = levelWanted(dx, dy, frame.colours);
+    float level = levelWanted(dx, dy, shading.colours);
     if (level <= 0.0) return rootTexel(colourRoots, place, face, dx, dy).rgb;
     level = min(level, finestOfClipmap(clipmapDistance(place, int(face + 0.5))));
     int coarser = int(floor(level));

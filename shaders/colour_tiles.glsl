@@ -7,7 +7,7 @@ uniform sampler2DArray colourRoots;   // one face per layer, with mipmaps
 // Returns the best resident colour for a level. place: [0, 1] across the face. dx, dy: its screen-space
 // derivatives.
 vec3 coloursOfLevel(int level, vec2 place, float face, vec2 dx, vec2 dy) {
-    uvec2 page = tilePage(colourPages, frame.colours.leafLevel, level, place, face);
+    uvec2 page = tilePage(colourPages, shading.colours.leafLevel, level, place, face);
     return tileTexel(colourTiles, page, place, dx, dy).rgb;
 }
 
@@ -16,9 +16,9 @@ vec3 coloursOfLevel(int level, vec2 place, float face, vec2 dx, vec2 dy) {
 vec3 streamedColours(vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
-    float level = levelWanted(dx, dy, frame.colours);
+    float level = levelWanted(dx, dy, shading.colours);
     if (level <= 0.0) return rootTexel(colourRoots, place, face, dx, dy).rgb;
-    level = min(level, float(frame.colours.leafLevel));
+    level = min(level, float(shading.colours.leafLevel));
     int coarser = int(floor(level));
     vec3 coarse = coloursOfLevel(coarser, place, face, dx, dy);
     float finer = level - float(coarser);

@@ -41,6 +41,7 @@ struct ShadingFrame {
     vec4 fineDetail;
     float heightStepPxM;       // pixels x metres: the size of a step of the heights at a distance of one metre
     float imageStepPxM;        // the same for a step of the image
+    TileSampling colours;
 };
 
 layout(std140) uniform Frame {
@@ -70,7 +71,6 @@ layout(std140) uniform Frame {
     int rampStopCount;
     float rampColoursSea;  // 1: the ramp's stops colour the sea too
 
-    TileSampling colours;
     TileSampling normals;
     float normalRiseM;  // rise of a slope of 1 along 1 of u or v
 } frame;

@@ -200,7 +200,7 @@ FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Pr
     uniforms.shading = shadingFrame(shape, view, settings);
     setDetail(shape, view, colours, uniforms);
     setRamp(settings, uniforms);
-    uniforms.colours = tileSampling(colours.leafLevel, colours.anisotropy, colours.texelsPerPixel);
+    uniforms.shading.colours = tileSampling(colours.leafLevel, colours.anisotropy, colours.texelsPerPixel);
     return uniforms;
 }
 

@@ -48,6 +48,7 @@ struct ShadingFrame {
     float eyeGrazing, eyeAir, seaLevelM, earthRadii, perRampTopM, imageStep;
     alignas(16) glm::vec4 coarseDetail, middleDetail, fineDetail;
     float heightStepPxM, imageStepPxM;
+    TileSampling colours;
 };
 
 struct FrameUniforms {
@@ -69,7 +70,7 @@ struct FrameUniforms {
     int rampStopCount;
     float rampColoursSea;
 
-    TileSampling colours, normals;
+    TileSampling normals;
     float normalRiseM;
 };
 

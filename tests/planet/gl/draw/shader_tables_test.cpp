@@ -73,7 +73,7 @@ const std::vector<Member> shadingMembers = {
     MEMBER(ShadingFrame, perRampTopM),  MEMBER(ShadingFrame, imageStep),
     MEMBER(ShadingFrame, coarseDetail), MEMBER(ShadingFrame, middleDetail),
     MEMBER(ShadingFrame, fineDetail),   MEMBER(ShadingFrame, heightStepPxM),
-    MEMBER(ShadingFrame, imageStepPxM)};
+    MEMBER(ShadingFrame, imageStepPxM), STRUCT(ShadingFrame, colours, samplingMembers)};
 const std::vector<Member> noiseMembers = {MEMBER(NoiseOctave, cell), MEMBER(NoiseOctave, cellsPerM),
                                           MEMBER(NoiseOctave, inside)};
 const std::vector<Member> repeatMembers = {MEMBER(RepeatUniforms, eye), MEMBER(RepeatUniforms, perM)};
@@ -113,7 +113,6 @@ const std::map<UniformBlock, BlockMembers> blockMembers = {
        STRUCTS(FrameUniforms, ramp, stopMembers),
        MEMBER(FrameUniforms, rampStopCount),
        MEMBER(FrameUniforms, rampColoursSea),
-       STRUCT(FrameUniforms, colours, samplingMembers),
        STRUCT(FrameUniforms, normals, samplingMembers),
        MEMBER(FrameUniforms, normalRiseM)}}},
     {UniformBlock::Layers,
