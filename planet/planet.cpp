@@ -75,9 +75,11 @@ Result<Room> roomFor(const PlanetShape& shape, std::uint64_t allChunks,
     TRY_ASSIGN(const auto slots, chunkSlotsFor(shape, allChunks, chunkBytes));
     room.slots = slots;
     if (!colour) return room;
-    TRY_ASSIGN(const auto tiles,
-               tileSlotsFor({"colour tiles", colour->leafLevel, colourTileBytes(colour->format)},
-                            shares.colours, settings.maxColourTiles));
+    TRY_ASSIGN(
+        const auto tiles,
+        tileSlotsFor({"colour tiles", colour->leafLevel,
+                      colourTileBytes(settings.unpackedColours ? ColourFormat::Lossless : colour->format)},
+                     shares.colours, settings.maxColourTiles));
     room.colours = tiles;
     return room;
 }

@@ -6,12 +6,12 @@
 // are mixed as levels are, so that no transition is visible.
 
 uniform sampler2DArray normalTiles;   // dh/du and dh/dv over the radius; one slot per layer
-uniform usampler2DArray normalPages;  // slot, level; a face per layer, a level per mipmap, finest first
+uniform usampler2DArray normalPages;  // tilePages(); a face per layer, a level per mipmap, finest first
 uniform sampler2DArray normalRoots;   // one face per layer, with mipmaps
 
 // Returns in xy the slopes times z, and in z the share of the tile; 0 if no tile is fine enough.
 vec3 slopeOfLevel(int level, float meshLevel, vec2 place, float face, vec2 dx, vec2 dy) {
-    uvec2 page = tilePage(normalPages, frame.normals.leafLevel, level, place, face);
+    uvec2 page = tilePages(normalPages, frame.normals.leafLevel, level, place, face).xy;
     if (page.r == noTile || float(page.g) < meshLevel) return vec3(0.0);
     return vec3(tileTexel(normalTiles, page, place, dx, dy).rg, 1.0);
 }
@@ -21,7 +21,7 @@ vec3 slopeAt(float meshLevel, vec2 place, float face) {
     vec2 dy = dFdy(place);
     float level = levelWanted(dx, dy, frame.normals);
     if (level <= 0.0) {
-        bool isThere = meshLevel <= 0.0 && tilePage(normalPages, frame.normals.leafLevel, 0, place, face).r != noTile;
+        bool isThere = meshLevel <= 0.0 && tilePages(normalPages, frame.normals.leafLevel, 0, place, face).x != noTile;
         return isThere ? vec3(rootTexel(normalRoots, place, face, dx, dy).rg, 1.0) : vec3(0.0);
     }
     level = min(level, float(frame.normals.leafLevel));

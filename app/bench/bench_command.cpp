@@ -233,9 +233,9 @@ std::vector<Part> partsOf(const BenchOptions& options, const planet::HeightSourc
          [&] { return benchLod(planets, options); }},
         {"frame", "Frames against a plain mesh of the same triangles",
          [&, largest] {
-             return benchFrame(largest(),
+             return benchFrame(largest(), source,
                                ownColourImage(options.source.empty() ? earthElevation() : options.source),
-                               options);
+                               options, folder);
          }},
         {"dynamic", "Selection and draw against one static draw of the same triangles",
          [&, largest] { return benchDynamicAgainstStatic(largest(), options); }},

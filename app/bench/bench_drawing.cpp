@@ -14,6 +14,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/scene_settings.h"
 #include "app/settings/camera_text.h"
+#include "planet/bake/bake.h"
 #include "planet/gl/device/gl_objects.h"
 #include "planet/gl/device/offscreen_context.h"
 #include "planet/gl/device/render_target.h"
@@ -336,6 +337,22 @@ void addTimes(const std::vector<std::string>& subjects, const std::vector<std::v
     }
 }
 
+// Bakes a planet again with the colours of an image, as the window does at its first start; without an image returns the
+// planet.
+Result<BenchPlanet> withOwnColours(const BenchPlanet& planet, const planet::HeightSource& source,
+                                   const std::filesystem::path& colourImage,
+                                   const std::filesystem::path& folder) {
+    if (colourImage.empty()) return planet;
+    const auto colours = planet::openColourSource(colourImage);
+    if (!colours) return tl::unexpected(colours.error());
+    planet::BakeSettings settings;
+    settings.faceSize = planet.faceSize;
+    const BenchPlanet coloured{planet.faceSize, folder / fmt::format("coloured{}.chk", planet.faceSize)};
+    const auto report = planet::bake(source, settings, coloured.chunkFile, {}, &*colours);
+    if (!report) return tl::unexpected(report.error());
+    return coloured;
+}
+
 void addSelection(planet::Planet& planet, const planet::View& view, double tauPx, int rounds,
                   std::vector<BenchRow>& rows) {
     planet::LodSettings lod = lodSettingsOf(benchSettings(1, 256));
@@ -426,24 +443,29 @@ BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOption
     return rows;
 }
 
-BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& colourImage,
-                     const BenchOptions& options) {
+BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& source,
+                     const std::filesystem::path& colourImage, const BenchOptions& options,
+                     const std::filesystem::path& folder) {
     Result<Drawing> drawing = openDrawing(options.size);
     if (!drawing) return tl::unexpected(drawing.error());
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
     if (!file) return tl::unexpected(file.error());
+    const Result<BenchPlanet> coloured = withOwnColours(planet, source, colourImage, folder);
+    if (!coloured) return tl::unexpected(coloured.error());
     struct Kind {
         const char* name;
-        ViewSettings settings;
+        const BenchPlanet& planet;
         double aim;
+        ViewSettings settings{};
     };
-    std::array<Kind, 3> kinds = {{{"as a first start has it", {}, 2.5},
-                                  {"with detail", {}, 4},
-                                  {"without light, air and detail", {}, 1.3}}};
-    kinds[1].settings.surface.detail = planet::gl::FeatureUse::On;
-    kinds[2].settings.surface.lighting = false;
-    kinds[2].settings.surface.atmosphere = false;
-    kinds[2].settings.surface.detail = planet::gl::FeatureUse::Off;
+    std::array<Kind, 4> kinds = {{{"default settings, colours of its own", *coloured, 2.5},
+                                  {"default settings", planet, 2.5},
+                                  {"with detail", planet, 4},
+                                  {"without light, air and detail", planet, 1.3}}};
+    kinds[2].settings.surface.detail = planet::gl::FeatureUse::On;
+    kinds[3].settings.surface.lighting = false;
+    kinds[3].settings.surface.atmosphere = false;
+    kinds[3].settings.surface.detail = planet::gl::FeatureUse::Off;
     std::vector<BenchRow> rows;
     // In the small picture, the same chunks have an eighth of the pixels along each side, so vertices count most.
     constexpr int smaller = 8;
@@ -455,8 +477,8 @@ BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& col
         for (const Kind& kind : kinds) {
             ViewSettings scaled = kind.settings;
             scaled.lod.tauPx /= divisor;
-            Result<Contender> opened =
-                openContender(fmt::format("{}, {}", picture, kind.name), scaled, planet, view, colourImage);
+            Result<Contender> opened = openContender(fmt::format("{}, {}", picture, kind.name), scaled,
+                                                     kind.planet, view, colourImage);
             if (!opened) return tl::unexpected(opened.error());
             contenders.push_back(std::move(*opened));
         }

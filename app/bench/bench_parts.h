@@ -64,9 +64,11 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
 // shader.
 BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOptions& options);
 // (j) Measures frames with everything and with less against a plain mesh that morphs and has one texture, in a picture of the
-// size asked for and in a small one. colourImage empty: a colour ramp by height.
-BenchRows benchFrame(const BenchPlanet& planet, const std::filesystem::path& colourImage,
-                     const BenchOptions& options);
+// size asked for and in a small one. One frame draws the colours of the planet's file, as a first start does; the others draw
+// the image. colourImage empty: a colour ramp by height.
+BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& source,
+                     const std::filesystem::path& colourImage, const BenchOptions& options,
+                     const std::filesystem::path& folder);
 // (c) Measures selection, per visited node and per frame.
 BenchRows benchSelection(const BenchPlanet& planet, const BenchOptions& options);
 // (d) Measures paging in the blocks of a view, with one loader and with two, against reading and decoding the same blocks in a

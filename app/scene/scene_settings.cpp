@@ -73,6 +73,7 @@ planet::PagingSettings pagingSettingsOf(const ViewSettings& settings, bool pause
             .badDisk = settings.paging.badDisk,
             .retry = {settings.paging.retries, settings.paging.retryDelayS},
             .colourShare = settings.paging.colourShare,
+            .unpackedColours = software,
             .normals =
                 settings.surface.lighting && planet::gl::isUsed(settings.surface.light.normals.use, software),
             .normalShare = settings.paging.normalShare,

@@ -53,6 +53,8 @@ struct PagingSettings {
     // colours, and coarser ground when the budget is exhausted.
     double colourShare = 0.25;
     std::uint32_t maxColourTiles = 2048;  // the capacity of the renderer's pool
+    // The renderer unpacks BC1 tiles, as it does with software rendering, so each takes the memory of a lossless one.
+    bool unpackedColours = false;
     // Loads tiles of normals (normal_tile.h) if the heights fill any. Off: they take no memory, and no view
     // uses them.
     bool normals = false;

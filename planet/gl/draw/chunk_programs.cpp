@@ -18,22 +18,24 @@ namespace planet::gl {
 namespace {
 
 constexpr auto chunkVertexFiles =
-    std::to_array<std::string_view>({"frame.glsl", "atmosphere.glsl", "air.glsl", "face_axes.glsl",
-                                     "ground.glsl", "vertex_position.glsl", "chunk.vert"});
+    std::to_array<std::string_view>({"frame.glsl", "smooth_rise.glsl", "atmosphere.glsl", "air.glsl",
+                                     "face_axes.glsl", "ground.glsl", "vertex_position.glsl", "chunk.vert"});
 constexpr auto chunkFragmentFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "face_axes.glsl", "ground.glsl", "tone.glsl", "water.glsl",
-     "sea.glsl", "shadows.glsl", "layers.glsl", "tile_lookup.glsl", "colour_tiles.glsl",
-     "colour_clipmap.glsl", "normal_tiles.glsl", "chunk.frag"});
+    {"frame.glsl", "smooth_rise.glsl", "atmosphere.glsl", "air.glsl", "face_axes.glsl", "ground.glsl",
+     "tone.glsl", "water.glsl", "sea.glsl", "shadows.glsl", "layers.glsl", "tile_lookup.glsl",
+     "colour_tiles.glsl", "colour_clipmap.glsl", "normal_tiles.glsl", "chunk.frag"});
 constexpr std::array<std::string_view, 1> depthFragmentFiles = {"depth.frag"};
 constexpr std::array<std::string_view, 2> skyVertexFiles = {"frame.glsl", "sky.vert"};
 constexpr auto skyFragmentFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "sky.glsl", "tone.glsl", "sky.frag"});
-constexpr auto starsVertexFiles = std::to_array<std::string_view>(
-    {"frame.glsl", "atmosphere.glsl", "air.glsl", "sky.glsl", "stars.glsl", "stars.vert"});
+    {"frame.glsl", "smooth_rise.glsl", "atmosphere.glsl", "air.glsl", "sky.glsl", "tone.glsl", "sky.frag"});
+constexpr auto starsVertexFiles =
+    std::to_array<std::string_view>({"frame.glsl", "smooth_rise.glsl", "atmosphere.glsl", "air.glsl",
+                                     "sky.glsl", "stars.glsl", "stars.vert"});
 constexpr auto starsFragmentFiles =
     std::to_array<std::string_view>({"tone.glsl", "stars.glsl", "stars.frag"});
 constexpr std::array<std::string_view, 1> faceImageVertexFiles = {"face_image.vert"};
-constexpr std::array<std::string_view, 2> faceImageFragmentFiles = {"water.glsl", "face_image.frag"};
+constexpr std::array<std::string_view, 3> faceImageFragmentFiles = {"smooth_rise.glsl", "water.glsl",
+                                                                    "face_image.frag"};
 constexpr std::array<std::string_view, 1> clipmapVertexFiles = {"colour_clipmap.vert"};
 constexpr std::array<std::string_view, 1> clipmapFragmentFiles = {"colour_clipmap.frag"};
 

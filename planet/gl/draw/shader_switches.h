@@ -37,6 +37,7 @@ namespace planet::gl {
     SWITCH(switchWireframe)      /* the mesh's lines over a dimmed surface */                     \
     SWITCH(switchOutlines)       /* the chunks' borders */                                        \
     SWITCH(switchLoudSkirts)     /* skirts in one glaring colour */                               \
+    SWITCH(switchAnisotropy)     /* samplers of tiles are anisotropic */                          \
     SWITCH(switchMultisampled)   /* pixels have several samples */                                \
     SWITCH(switchHeldFrame)      /* vertices hand on what shading reads of the frame */
 // clang-format on

@@ -43,7 +43,8 @@ std::uint32_t mostColourTiles() {
 }
 
 Result<TilePool> TilePool::create(const ColourPoolConfig& config) {
-    const bool compressed = config.format == ColourFormat::Bc1 && hasBc1();
+    // Decoding BC1 at each pixel takes a CPU as long as half of the rest of the frame.
+    const bool compressed = config.format == ColourFormat::Bc1 && hasBc1() && !isSoftwareRenderer();
     Texels texels;
     texels.internalFormat =
         compressed ? static_cast<GLenum>(GL_COMPRESSED_SRGB_S3TC_DXT1_EXT) : static_cast<GLenum>(GL_SRGB8);
@@ -109,8 +110,8 @@ void TilePool::allocate() {
     setSampling(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST, leafLevel_);
     for (int level = 0; level <= leafLevel_; ++level) {
         const GLsizei across = 1 << level;
-        glTexImage3D(GL_TEXTURE_2D_ARRAY, leafLevel_ - level, GL_RG16UI, across, across, faceCount, 0,
-                     GL_RG_INTEGER, GL_UNSIGNED_SHORT, nullptr);
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, leafLevel_ - level, GL_RGBA16UI, across, across, faceCount, 0,
+                     GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, nullptr);
     }
 }
 
@@ -130,14 +131,15 @@ void TilePool::follow(std::span<const TileChange> changes) {
         if (change.resets) reset();
         if (change.gone) {
             const Page above = pageOf(*change.gone);
-            for (int q = 0; q < quadrantCount; ++q) setPages(childOf(*change.gone, q), above);
+            for (int q = 0; q < quadrantCount; ++q)
+                setPages(childOf(*change.gone, q), above.slot, above.level);
         }
         for (std::uint32_t i = 0; i < change.arrived.size(); ++i) {
             const TileData& tile = change.arrived[i];
             const std::uint32_t slot = change.firstSlot + i;
             upload(slot, tile);
             if (tile.id.level == 0) uploadRoot(tile);
-            setPages(tile.id, {static_cast<std::uint16_t>(slot), tile.id.level});
+            setPages(tile.id, static_cast<std::uint16_t>(slot), tile.id.level);
         }
     }
 }
@@ -147,7 +149,7 @@ void TilePool::reset() {
     for (std::size_t face = 0; face < faceCount; ++face) {
         for (int level = 0; level <= leafLevel_; ++level) table_.emplace_back(std::size_t{1} << (2 * level));
     }
-    for (const Face face : allFaces) setPages({face, 0, 0, 0}, Page{});
+    for (const Face face : allFaces) setPages({face, 0, 0, 0}, noTile, 0);
 }
 
 // Returns the texels for a texture whose format is not the tile's own.
@@ -181,10 +183,16 @@ void TilePool::uploadRoot(const TileData& root) {
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-// Sets the page of the tile and those of all its descendants, none of which is resident.
-void TilePool::setPages(const ChunkId& tile, Page page) {
+// Makes a resident tile that of a place in the tree and of all its descendants, none of which is resident.
+void TilePool::setPages(const ChunkId& tile, std::uint16_t slot, std::uint16_t tileLevel) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, pages_.name());
     for (int level = tile.level; level <= leafLevel_; ++level) {
+        Page page{slot, tileLevel, slot, tileLevel};
+        if (level == tile.level && level > 0) {
+            const Page above = pageOf(parentOf(tile));
+            page.coarserSlot = above.slot;
+            page.coarserLevel = above.level;
+        }
         const int finer = level - tile.level;
         const std::size_t side = std::size_t{1} << finer;
         const std::size_t firstColumn = std::size_t{tile.x} << finer;
@@ -196,7 +204,7 @@ void TilePool::setPages(const ChunkId& tile, Page page) {
         const std::vector<Page> square(side * side, page);
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, leafLevel_ - level, static_cast<GLint>(firstColumn),
                         static_cast<GLint>(firstRow), static_cast<GLint>(tile.face),
-                        static_cast<GLsizei>(side), static_cast<GLsizei>(side), 1, GL_RG_INTEGER,
+                        static_cast<GLsizei>(side), static_cast<GLsizei>(side), 1, GL_RGBA_INTEGER,
                         GL_UNSIGNED_SHORT, square.data());
     }
 }

@@ -43,7 +43,7 @@ public:
     GLuint tiles() const { return tiles_.name(); }
     GLuint pages() const { return pages_.name(); }
     GLuint roots() const { return roots_.name(); }
-    // Returns whether tiles stay BC1 on the GPU; without BC1 support they are unpacked.
+    // Returns whether tiles stay BC1 on the GPU; without BC1 support and with software rendering they are unpacked.
     bool isCompressed() const { return texels_.isCompressed; }
     float anisotropy() const { return anisotropy_; }  // of the sampler, >= 1
     std::size_t bytes() const;
@@ -61,10 +61,13 @@ private:
         std::optional<ColourFormat> colours{};  // format of the incoming tiles; unset: normals
         const char* name = "";
     };
-    // A texel of the page table.
+    // A texel of the page table: the tile for its level, and the one for the level above, so that shaders find both
+    // at once.
     struct Page {
         std::uint16_t slot = noTile;
         std::uint16_t level = 0;
+        std::uint16_t coarserSlot = noTile;
+        std::uint16_t coarserLevel = 0;
     };
 
     TilePool() = default;
@@ -74,7 +77,7 @@ private:
     void upload(std::uint32_t slot, const TileData& tile);
     void uploadRoot(const TileData& root);
     std::vector<std::uint8_t> unpacked(const TileData& tile) const;
-    void setPages(const ChunkId& tile, Page page);
+    void setPages(const ChunkId& tile, std::uint16_t slot, std::uint16_t tileLevel);
     Page pageOf(const ChunkId& tile) const;
     std::vector<Page>& levelOf(Face face, int level);
 

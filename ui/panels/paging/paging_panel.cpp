@@ -93,7 +93,8 @@ bool hasKinds(const EditorView& view) {
 }
 
 std::size_t tileBytes(const planet::Planet& planet) {
-    return planet::colourTileBytes(planet.colour()->format);
+    const bool isUnpacked = planet.pagingSettings().unpackedColours;
+    return planet::colourTileBytes(isUnpacked ? planet::ColourFormat::Lossless : planet.colour()->format);
 }
 
 void colourMemory(const EditorView& view) {

@@ -61,8 +61,8 @@ class Air : public GlTest {
 protected:
     Air() : frame_(makeBuffer()), framebuffer_(makeFramebuffer()), colour_(makeRenderbuffer()) {
         constexpr std::array<std::string_view, 2> vertexFiles = {"frame.glsl", "sky.vert"};
-        constexpr std::array<std::string_view, 3> fragmentFiles = {"frame.glsl", "atmosphere.glsl",
-                                                                   "air.glsl"};
+        constexpr std::array<std::string_view, 4> fragmentFiles = {"frame.glsl", "smooth_rise.glsl",
+                                                                   "atmosphere.glsl", "air.glsl"};
         const ShaderText vertex = valueOf(readShader({}, vertexFiles));
         ShaderText fragment = valueOf(readShader({}, fragmentFiles));
         fragment.text += probeMain;
