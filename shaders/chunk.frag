@@ -255,11 +255,18 @@ vec3 groundNormal() {
     return normal;
 }
 
+// Returns the direction from the planet's centre to a position relative to the eye. Ground is about one radius away.
+vec3 upAt(vec3 position) {
+    vec3 fromCentre = shading.eyeM + position;
+    if (switchCube) return normalize(fromCentre);
+    return renormalised(fromCentre * (shading.scaleHeightsPerM * (1.0 / radiusScaleHeights)));
+}
+
 vec3 lightByPixel() {
     vec3 position = positionSeen();
     float nearness = inversesqrt(dot(position, position));
     vec3 ray = position * nearness;
-    vec3 up = normalize(shading.eyeM + position);
+    vec3 up = upAt(position);
     vec3 bare = groundNormal();
     vec3 normal = bare;
     Detail detail = noDetail();
@@ -302,14 +309,14 @@ vec3 lightByPixel() {
 }
 
 vec3 lightByVertex() {
-    vec3 up = normalize(shading.eyeM + surface);
+    vec3 up = upAt(surface);
     Material material = materialAt(up, facePlace.z - shading.seaLevelM, steep, noDetail(), 0.0);
     vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
     return inRange(groundArriving.rgb) * max(reflected, 0.0) + inRange(airArriving.rgb);
 }
 
 vec3 flatSurface() {
-    vec3 up = normalize(shading.eyeM + surface);
+    vec3 up = upAt(surface);
     Material material = materialAt(up, facePlace.z - shading.seaLevelM, 0.0, noDetail(), 0.0);
     vec3 albedo = material.albedo;
     if (switchLayers) {
@@ -332,7 +339,7 @@ void main() {
     else shading = frame.shading;
     vec3 colour = switchLighting ? litSurface() : flatSurface();
     if (switchLayerPreview)
-        colour = layerPreview(colour, surface, normalize(shading.eyeM + surface), groundNormal(),
+        colour = layerPreview(colour, surface, upAt(surface), groundNormal(),
                               facePlace.z - shading.seaLevelM);
     // Tints carry measured values. They are applied to the finished picture, so that light, air and dither do
     // not change their colours.

@@ -13,7 +13,9 @@ vec3 encodeSrgb(vec3 colour) {
 // function of the square root, with an error below one 8-bit step.
 vec3 developed(vec3 light) {
     vec3 s = sqrt(light);
-    return clamp(s * (49.7629 * s - 0.66141) / (1.0 + s * (31.3969 + 32.0001 * s)), 0.0, 1.0);
+    vec3 below = 1.0 + s * (31.3969 + 32.0001 * s);
+    float perAll = 1.0 / (below.r * below.g * below.b);  // one division for three
+    return clamp(s * (49.7629 * s - 0.66141) * (below.gbr * below.brg * perAll), 0.0, 1.0);
 }
 
 // Returns half an 8-bit step in a fine pattern, to prevent banding in slow gradients.
