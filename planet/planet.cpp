@@ -48,6 +48,7 @@ void applyTo(Pager& pager, const PagingSettings& settings) {
 struct Room {
     std::uint32_t slots = 0;
     std::uint32_t colours = 0;  // 0: no colours
+    bool coloursUnpacked = false;
     std::uint32_t normals = 0;  // 0: no normals
     std::size_t normalHeightBytes = 0;
     std::string problem;  // the reason if there are no normals
@@ -75,12 +76,18 @@ Result<Room> roomFor(const PlanetShape& shape, std::uint64_t allChunks,
     TRY_ASSIGN(const auto slots, chunkSlotsFor(shape, allChunks, chunkBytes));
     room.slots = slots;
     if (!colour) return room;
-    TRY_ASSIGN(
-        const auto tiles,
-        tileSlotsFor({"colour tiles", colour->leafLevel,
-                      colourTileBytes(settings.unpackedColours ? ColourFormat::Lossless : colour->format)},
-                     shares.colours, settings.maxColourTiles));
-    room.colours = tiles;
+    const auto coloursFor = [&](ColourFormat held, std::size_t bytes) {
+        return tileSlotsFor({"colour tiles", colour->leafLevel, colourTileBytes(held)}, bytes,
+                            settings.maxColourTiles);
+    };
+    TRY_ASSIGN(const auto packed, coloursFor(colour->format, shares.colours));
+    room.colours = packed;
+    if (!settings.unpackedColours || colour->format == ColourFormat::Lossless) return room;
+    constexpr std::uint32_t screenful = 200;  // of 1920 x 1080, at two levels
+    const Result<std::uint32_t> unpacked = coloursFor(ColourFormat::Lossless, shares.colours);
+    if (!unpacked || *unpacked < std::min(packed, screenful)) return room;
+    room.colours = *unpacked;
+    room.coloursUnpacked = true;
     return room;
 }
 
@@ -119,6 +126,7 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
         state->colours.leafLevel = source.colour->leafLevel;
         state->colours.checkers = source.colour->format;
         state->colours.roots = std::move(source.colourRoots);
+        state->colours.unpacked = room.coloursUnpacked;
         state->colours.begin(room.colours, 0);
         state->colour = std::move(source.colour);
     }
@@ -284,7 +292,8 @@ Result<bool> Planet::setPaging(const PagingSettings& settings) {
     if (otherTime) state.requeue(state.pager->setTime(settings.time));
     const bool resized = room.slots != state.heights.capacity();
     if (resized) state.resizeHeights(room.slots);
-    if (room.colours != state.colours.capacity()) state.resizeTiles(state.colours, room.colours);
+    const bool repacked = std::exchange(state.colours.unpacked, room.coloursUnpacked) != room.coloursUnpacked;
+    if (room.colours != state.colours.capacity() || repacked) state.resizeTiles(state.colours, room.colours);
     if (room.normals != state.normalRoots.capacity() || room.problem != state.normalRoots.problem())
         state.beginNormals(room.normals, room.normalHeightBytes, room.problem);
     else if (otherTime && state.normalsArePending())

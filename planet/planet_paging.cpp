@@ -197,6 +197,7 @@ void PlanetState::count() {
     paging.residentBytesGpu = tree.residentChunks * chunkBytesGpu(tree.shape);
     if (const NormalDeriver* deriver = normalRoots.deriver())
         normals.counters().bytesRead = deriver->bytesRead();
+    colours.counters().unpacked = colours.unpacked;
     for (BlockPaging* kind : kinds()) {
         kind->count();
         paging[kind->kind()] = kind->counters();

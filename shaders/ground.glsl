@@ -1,8 +1,10 @@
 // The lighting of the ground that vertex and fragment shaders share.
 
 // Returns a unit vector for one that is nearly of unit length, such as a mix of unit vectors. Two steps of Newton's
-// method replace the square root: the error is below 0.1 % for mixes of vectors that are 60 degrees apart.
+// method replace the square root: the error is below 0.1 % for mixes of vectors that are 60 degrees apart. Vectors that
+// multisampling extrapolates may have any length.
 vec3 renormalised(vec3 v) {
+    if (switchMultisampled) return normalize(v);
     float squared = dot(v, v);
     float once = 1.5 - 0.5 * squared;
     return v * (once * (1.5 - 0.5 * squared * once * once));

@@ -454,18 +454,21 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
     if (!coloured) return tl::unexpected(coloured.error());
     struct Kind {
         const char* name;
-        const BenchPlanet& planet;
+        const BenchPlanet* planet;
         double aim;
         ViewSettings settings{};
     };
-    std::array<Kind, 4> kinds = {{{"default settings, colours of its own", *coloured, 2.5},
-                                  {"default settings", planet, 2.5},
-                                  {"with detail", planet, 4},
-                                  {"without light, air and detail", planet, 1.3}}};
-    kinds[2].settings.surface.detail = planet::gl::FeatureUse::On;
-    kinds[3].settings.surface.lighting = false;
-    kinds[3].settings.surface.atmosphere = false;
-    kinds[3].settings.surface.detail = planet::gl::FeatureUse::Off;
+    ViewSettings detailed;
+    detailed.surface.detail = planet::gl::FeatureUse::On;
+    ViewSettings plain;
+    plain.surface.lighting = false;
+    plain.surface.atmosphere = false;
+    plain.surface.detail = planet::gl::FeatureUse::Off;
+    std::vector<Kind> kinds = {{"default settings", &planet, 2.5},
+                               {"with detail", &planet, 4, detailed},
+                               {"without light, air and detail", &planet, 1.3, plain}};
+    if (!colourImage.empty())
+        kinds.insert(kinds.begin(), {"default settings, colours of its own", &*coloured, 2.5});
     std::vector<BenchRow> rows;
     // In the small picture, the same chunks have an eighth of the pixels along each side, so vertices count most.
     constexpr int smaller = 8;
@@ -478,7 +481,7 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
             ViewSettings scaled = kind.settings;
             scaled.lod.tauPx /= divisor;
             Result<Contender> opened = openContender(fmt::format("{}, {}", picture, kind.name), scaled,
-                                                     kind.planet, view, colourImage);
+                                                     *kind.planet, view, colourImage);
             if (!opened) return tl::unexpected(opened.error());
             contenders.push_back(std::move(*opened));
         }

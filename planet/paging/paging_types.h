@@ -53,7 +53,8 @@ struct PagingSettings {
     // colours, and coarser ground when the budget is exhausted.
     double colourShare = 0.25;
     std::uint32_t maxColourTiles = 2048;  // the capacity of the renderer's pool
-    // The renderer unpacks BC1 tiles, as it does with software rendering, so each takes the memory of a lossless one.
+    // Lets the renderer unpack BC1 tiles, each of which then takes the memory of a lossless one, if the share has room
+    // for all of them or for enough to fill a screen: a CPU draws unpacked tiles faster. BlockCounters tells whether.
     bool unpackedColours = false;
     // Loads tiles of normals (normal_tile.h) if the heights fill any. Off: they take no memory, and no view
     // uses them.
@@ -138,6 +139,7 @@ struct BlockCounters {
     std::uint32_t awaitingRetry = 0;      // other blocks whose last read failed
     std::size_t resident = 0;             // chunks or tiles, including roots
     std::uint32_t capacity = 0;           // slots for them; 0 if the kind is off or has no room
+    bool unpacked = false;                // of colours: BC1 tiles are to be unpacked
 
     PrefetchCounters prefetch{};  // part of loaded, evicted and bytesRead
 };

@@ -19,7 +19,8 @@ public:
     // Paging is off until begin().
     explicit TilePaging(BlockKind kind) : BlockPaging(kind) {}
 
-    int leafLevel = -1;  // of the pyramid; -1: the planet has none
+    int leafLevel = -1;     // of the pyramid; -1: the planet has none
+    bool unpacked = false;  // of colours: as BlockCounters::unpacked
     // Set for colours: a block that has failed for good is replaced by a checker pattern of this format.
     // Failed blocks of normals have no stand-in.
     std::optional<ColourFormat> checkers;

@@ -296,6 +296,37 @@ TEST(PlanetColours, SettingsThatLeaveTooLittleRoomAreRefused) {
         Planet::open(fakePyramid().source(), roomForColourTiles(1)));  // without colours it does not matter
 }
 
+TEST(PlanetColours, AreUnpackedOnlyWhereEnoughOfThemFit) {
+    const std::size_t tileBytes = colourTileBytes(ColourFormat::Lossless);
+    const auto openWith = [](std::size_t colourBytes, bool unpacked) {
+        PagingSettings settings = roomForColourTiles(2048);
+        settings.budgetBytes = 2 * colourBytes;
+        settings.unpackedColours = unpacked;
+        return Planet::open(colouredSource(), settings).value();
+    };
+    const auto roomy = openWith(250 * tileBytes, true);
+    EXPECT_TRUE(roomy->paging()[BlockKind::Colours].unpacked);
+    EXPECT_LE(roomy->paging()[BlockKind::Colours].capacity, 250u);
+    EXPECT_GE(roomy->paging()[BlockKind::Colours].capacity, 246u);
+    EXPECT_FALSE(openWith(250 * tileBytes, false)->paging()[BlockKind::Colours].unpacked);
+    const auto narrow = openWith(150 * tileBytes, true);
+    EXPECT_FALSE(narrow->paging()[BlockKind::Colours].unpacked);
+    EXPECT_GT(narrow->paging()[BlockKind::Colours].capacity, 250u);
+
+    // A change of the budget repacks the tiles that are resident.
+    const View view = viewAt(20, 20, 4e6, -90);
+    ColourPool pool;
+    ASSERT_TRUE(colouredSettled(*roomy, view));
+    pool.follow(*roomy);
+    PagingSettings less = roomy->pagingSettings();
+    less.budgetBytes = 2 * 150 * tileBytes;
+    ASSERT_TRUE(roomy->setPaging(less));
+    EXPECT_FALSE(roomy->paging()[BlockKind::Colours].unpacked);
+    ASSERT_TRUE(colouredSettled(*roomy, view));
+    pool.follow(*roomy);
+    expectTotalsOfEachKindAddUp(*roomy);
+}
+
 // As a recording does: what the loaders did is done again on a planet whose time is recorded.
 TEST(PlanetColours, ARecordingOfThemIsFollowedExactly) {
     PagingSettings settings = roomForColourTiles(6 + 4 * 30);

@@ -382,8 +382,14 @@ TEST(Program, ABenchSetsEachFigureBesideItsYardstick) {
     EXPECT_EQ(triangles["faces of 65, every leaf"], 6 * 64 * 64 * 2);
     EXPECT_LT(triangles["faces of 65, tau 1 px"], triangles["faces of 65, every leaf"]);
     const json& frame = report["parts"]["frame"];
-    EXPECT_EQ(frame[0]["subject"], "64 x 64, as a first start has it");
+    EXPECT_EQ(frame[0]["subject"], "64 x 64, default settings");
     EXPECT_EQ(frame[0]["times"]["of"], "one texture");
+    std::map<std::string, double> drawn;
+    for (const json& row : frame) {
+        if (row["quantity"] == "triangles") drawn[row["subject"]] = row["median"];
+    }
+    EXPECT_GT(drawn["64 x 64, morph and one texture"], 0);
+    EXPECT_EQ(drawn["64 x 64, morph and one texture"], drawn["64 x 64, without light, air and detail"]);
     const json& dynamic = report["parts"]["dynamic"];
     EXPECT_EQ(dynamic[0]["times"]["of"], "static");
     EXPECT_EQ(dynamic.back()["median"], triangles["faces of 65, tau 1 px"]) << "of the static draw";

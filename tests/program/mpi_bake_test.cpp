@@ -45,7 +45,7 @@ Ran disturbed(const TemporaryFolder& folder, const std::string& command) {
                     job +
                         "& mpirun=$!\n"
                         "until [ -s a.chk.spool/0002.spool ] && [ $(stat -c %s a.chk.spool/0002.spool) "
-                        "-gt 200000 ]; do sleep 0.02; done\n" +
+                        "-gt 40000 ]; do sleep 0.02; done\n" +
                         command + "\nwait $mpirun");
 }
 

@@ -50,8 +50,8 @@ void PlanetRenderer::limit(ViewInput& view) const {
 void PlanetRenderer::followColours(Planet& planet) {
     const std::optional<ColourPyramid>& colour = planet.colour();
     if (!colour) return;
-    const ColourPoolConfig wanted{colour->format, colour->leafLevel,
-                                  planet.paging()[BlockKind::Colours].capacity};
+    const BlockCounters& counters = planet.paging()[BlockKind::Colours];
+    const ColourPoolConfig wanted{colour->format, colour->leafLevel, counters.capacity, counters.unpacked};
     if (colourPool_ != wanted) {
         const Result<void> made = chunks_.setColours(wanted);
         if (!made) {

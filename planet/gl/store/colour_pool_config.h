@@ -11,7 +11,8 @@ namespace planet::gl {
 struct ColourPoolConfig {
     ColourFormat format = ColourFormat::Bc1;
     int leafLevel = 0;
-    std::uint32_t tileCapacity = 0;  // BlockCounters::tileCapacity
+    std::uint32_t tileCapacity = 0;  // BlockCounters::capacity
+    bool unpacked = false;           // BlockCounters::unpacked
 
     bool operator==(const ColourPoolConfig&) const = default;
 };

@@ -43,8 +43,7 @@ std::uint32_t mostColourTiles() {
 }
 
 Result<TilePool> TilePool::create(const ColourPoolConfig& config) {
-    // Decoding BC1 at each pixel takes a CPU as long as half of the rest of the frame.
-    const bool compressed = config.format == ColourFormat::Bc1 && hasBc1() && !isSoftwareRenderer();
+    const bool compressed = config.format == ColourFormat::Bc1 && hasBc1() && !config.unpacked;
     Texels texels;
     texels.internalFormat =
         compressed ? static_cast<GLenum>(GL_COMPRESSED_SRGB_S3TC_DXT1_EXT) : static_cast<GLenum>(GL_SRGB8);

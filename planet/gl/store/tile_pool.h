@@ -43,7 +43,7 @@ public:
     GLuint tiles() const { return tiles_.name(); }
     GLuint pages() const { return pages_.name(); }
     GLuint roots() const { return roots_.name(); }
-    // Returns whether tiles stay BC1 on the GPU; without BC1 support and with software rendering they are unpacked.
+    // Returns whether tiles stay BC1 on the GPU; without BC1 support they are unpacked.
     bool isCompressed() const { return texels_.isCompressed; }
     float anisotropy() const { return anisotropy_; }  // of the sampler, >= 1
     std::size_t bytes() const;

@@ -93,7 +93,7 @@ bool hasKinds(const EditorView& view) {
 }
 
 std::size_t tileBytes(const planet::Planet& planet) {
-    const bool isUnpacked = planet.pagingSettings().unpackedColours;
+    const bool isUnpacked = planet.paging()[planet::BlockKind::Colours].unpacked;
     return planet::colourTileBytes(isUnpacked ? planet::ColourFormat::Lossless : planet.colour()->format);
 }
 

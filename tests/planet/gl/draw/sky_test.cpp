@@ -1,4 +1,6 @@
 // Stars in pictures, against where geometry puts them.
+#include "planet/gl/draw/sky.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
