@@ -18,9 +18,9 @@ void allowManyFiles() {
     ::setrlimit(RLIMIT_NOFILE, &files);
 }
 
-// By default glibc grows the heap of a thread by a page or two at a time, with a system call: a loader makes one for each
-// block that it reads. Heaps are reserved as a whole instead; their pages take no memory before they are used. The other
-// two thresholds are those at which glibc arrives by itself; it would keep their defaults once one of them is set.
+// By default glibc grows the heap of a thread by a page or two with a system call, which a loader makes for each block that
+// it reads. Here each heap is reserved as a whole; its pages take no memory before they are used. glibc stops adapting the
+// other two thresholds once one of the three is set, so they get the values that it would reach.
 void reserveHeaps() {
     constexpr int heapBytes = 64 << 20;
     ::mallopt(M_TOP_PAD, heapBytes);

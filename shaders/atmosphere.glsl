@@ -64,7 +64,7 @@ vec3 scattered(float mass, vec3 amount, vec3 sunHere, float sunAlongRay) {
     float k = 1.0 / (1.0 - 0.76 * sunAlongRay);  // Schlick's phase function
     float forward = 0.42 * k * k;
     vec3 taken = amount + vec3(haze);
-    vec3 share = (amount * rayleigh + vec3(haze * forward)) * (1.0 / taken);
+    vec3 share = (amount * rayleigh + vec3(haze * forward)) * (1.0 / taken);  // 1 / taken is constant in the sky
     return sunLight * 0.21 * sunHere * share * (1.0 - exp(-taken * mass));
 }
 

@@ -30,8 +30,7 @@ out float onSkirt;        // 0 on the ground, 1 at the skirt's lower end
 flat out float onFace;
 flat out vec4 tint;
 flat out float meshLevel;  // level of the tiles whose texels are the mesh's vertices
-
-flat out ShadingFrame held;
+flat out ShadingFrame held;  // with switchHeldFrame
 
 invariant gl_Position;
 

@@ -16,8 +16,8 @@ vec3 streamedColours(vec2 place, float face) {
     int coarser = int(level);
     int finer = min(coarser + 1, leaf);
     uvec4 pages = tilePages(colourPages, leaf, finer, place, face);
-    uvec2 coarserPage = finer > coarser ? pages.zw : pages.xy;
-    vec3 coarse = tileTexel(colourTiles, coarserPage, place, dx, dy).rgb;
     vec3 fine = tileTexel(colourTiles, pages.xy, place, dx, dy).rgb;
+    if (finer == coarser) return fine;
+    vec3 coarse = tileTexel(colourTiles, pages.zw, place, dx, dy).rgb;
     return mix(coarse, fine, level - float(coarser));
 }

@@ -21,7 +21,7 @@ vec3 alongFace(int face, vec3 world) {
                       : vec3(side * world.z, world.y, -side * world.x);
 }
 
-// The same in integers, which have more bits than a float.
+// These do the same in integers, which have more bits than a float.
 ivec3 fromFace(int face, ivec3 along) {
     int side = (face & 1) == 0 ? 1 : -1;
     return face < 2   ? ivec3(side * along.x, side * along.y, along.z)

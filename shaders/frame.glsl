@@ -22,7 +22,7 @@ struct TileSampling {
     float extraLevels;  // levels finer than one texel per pixel
 };
 
-// What shading reads at most pixels.
+// The values of a frame that the shading of most pixels reads.
 struct ShadingFrame {
     vec3 sun;                  // unit vector
     float nearGround;          // 1 near the ground, 0 in space
@@ -75,5 +75,6 @@ layout(std140) uniform Frame {
     float normalRiseM;  // rise of a slope of 1 along 1 of u or v
 } frame;
 
-// Main functions set it first, so that they may take it from the vertices (switchHeldFrame).
+// Each main function sets this first: from the uniforms, or with switchHeldFrame from the vertices. Mesa's llvmpipe loads
+// a uniform again at each pixel, which takes about 30 instructions, but a flat input once per triangle.
 ShadingFrame shading;

@@ -9,8 +9,8 @@ flat out float sizePx;  // of the point
 
 // Less light than this cannot be seen on black.
 const float leastSeen = 2.5e-4;
-// Where stars are closer together, they are darker, so that a small picture of the sky is not brighter than a large
-// one.
+// Stars are dimmed where their cells are narrower than this. Otherwise a small picture of the sky would be brighter than
+// a large one.
 const float farApartPx = 6.0;
 
 void main() {

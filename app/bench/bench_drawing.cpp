@@ -337,12 +337,10 @@ void addTimes(const std::vector<std::string>& subjects, const std::vector<std::v
     }
 }
 
-// Bakes a planet again with the colours of an image, as the window does at its first start; without an image returns the
-// planet.
+// Bakes a planet again with the colours of an image, as the window does at its first start.
 Result<BenchPlanet> withOwnColours(const BenchPlanet& planet, const planet::HeightSource& source,
                                    const std::filesystem::path& colourImage,
                                    const std::filesystem::path& folder) {
-    if (colourImage.empty()) return planet;
     const auto colours = planet::openColourSource(colourImage);
     if (!colours) return tl::unexpected(colours.error());
     planet::BakeSettings settings;
@@ -450,11 +448,9 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
     if (!drawing) return tl::unexpected(drawing.error());
     const Result<planet::ChunkFile> file = planet::ChunkFile::open(planet.chunkFile);
     if (!file) return tl::unexpected(file.error());
-    const Result<BenchPlanet> coloured = withOwnColours(planet, source, colourImage, folder);
-    if (!coloured) return tl::unexpected(coloured.error());
     struct Kind {
         const char* name;
-        const BenchPlanet* planet;
+        BenchPlanet planet;
         double aim;
         ViewSettings settings{};
     };
@@ -464,11 +460,14 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
     plain.surface.lighting = false;
     plain.surface.atmosphere = false;
     plain.surface.detail = planet::gl::FeatureUse::Off;
-    std::vector<Kind> kinds = {{"default settings", &planet, 2.5},
-                               {"with detail", &planet, 4, detailed},
-                               {"without light, air and detail", &planet, 1.3, plain}};
-    if (!colourImage.empty())
-        kinds.insert(kinds.begin(), {"default settings, colours of its own", &*coloured, 2.5});
+    std::vector<Kind> kinds = {{"default settings", planet, 2.5},
+                               {"with detail", planet, 4, detailed},
+                               {"without light, air and detail", planet, 1.3, plain}};
+    if (!colourImage.empty()) {
+        const Result<BenchPlanet> coloured = withOwnColours(planet, source, colourImage, folder);
+        if (!coloured) return tl::unexpected(coloured.error());
+        kinds.insert(kinds.begin(), {"default settings, colours of its own", *coloured, 2.5});
+    }
     std::vector<BenchRow> rows;
     // In the small picture, the same chunks have an eighth of the pixels along each side, so vertices count most.
     constexpr int smaller = 8;
@@ -481,7 +480,7 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
             ViewSettings scaled = kind.settings;
             scaled.lod.tauPx /= divisor;
             Result<Contender> opened = openContender(fmt::format("{}, {}", picture, kind.name), scaled,
-                                                     *kind.planet, view, colourImage);
+                                                     kind.planet, view, colourImage);
             if (!opened) return tl::unexpected(opened.error());
             contenders.push_back(std::move(*opened));
         }

@@ -63,8 +63,8 @@ BenchRows benchLodAgainstLeaves(const BenchPlanet& planet, const BenchOptions& o
 // (b) Measures selecting and drawing against one draw of the same triangles from a static buffer, with the same fragment
 // shader.
 BenchRows benchDynamicAgainstStatic(const BenchPlanet& planet, const BenchOptions& options);
-// (j) Measures frames with everything and with less against a plain mesh that morphs and has one texture, in a picture of the
-// size asked for and in a small one. One frame draws the colours of the planet's file, as a first start does; the others draw
+// (j) Measures frames with everything and with less against a plain mesh that morphs and has skirts and one texture, in a
+// picture of the size asked for and in a small one. One frame draws the colours of the planet's file, as a first start does; the others draw
 // the image. colourImage empty: a colour ramp by height.
 BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& source,
                      const std::filesystem::path& colourImage, const BenchOptions& options,

@@ -59,6 +59,7 @@ RenderCapabilities findCapabilities() {
     glGetIntegerv(GL_MAX_SAMPLES, &samples);
     capabilities.samples = std::max(samples, 1);
     capabilities.software = isSoftwareRenderer();
+    capabilities.anisotropy = anisotropyToUse();
     return capabilities;
 }
 
@@ -166,6 +167,8 @@ struct ChunkRenderer::State {
     bool makeShadowMaps(const RenderSettings& settings, std::span<const DrawItem> items);
     void drawShadows(const View& view, std::span<const DrawItem> items, const RenderSettings& settings,
                      const Program& program);
+    Switches skySwitches(const RenderSettings& settings) const;
+    void addSkyPrograms(Switches skySwitches, DrawnWith& with) const;
     DrawnWith programsFor(Switches switches, Switches skySwitches) const;
     DrawnWith programsAtHand(Switches switches, Switches skySwitches) const;
     void fillFrame(const View& view, const RenderSettings& settings, ShaderWait wait);
@@ -240,14 +243,14 @@ Switches ChunkRenderer::State::chooseSwitches(const View& view, std::span<const 
     const Switches layersSeen =
         settings.cube ? 0 : layerSwitches(settings.layers, capabilities.software, nearestGroundM);
     constexpr Switches seenByPixel = switchDetail | switchSeaSurface | switchShadows;
-    GLint samples = 0;
-    glGetIntegerv(GL_SAMPLES, &samples);
     const bool byVertex = (switches & switchLighting) != 0 && (switches & seenByPixel) == 0 &&
                           (layersSeen & switchLayers) == 0 && !drawsNormals(settings) &&
                           cellsAreSmall(config.shape, view, items, nearestGroundM);
     const bool physicalAir = (switches & switchAir) != 0 && airIsPhysical(settings);
     return switches | layersSeen | (physicalAir ? switchPhysicalAir : Switches{0}) |
-           (byVertex ? switchLightByVertex : Switches{0}) | (samples > 1 ? switchMultisampled : Switches{0}) |
+           (byVertex ? switchLightByVertex : Switches{0}) |
+           (boundSamples() > 1 ? switchMultisampled : Switches{0}) |
+           (capabilities.anisotropy > 1 ? switchAnisotropy : Switches{0}) |
            (drawsNormals(settings) ? switchNormalTiles : Switches{0}) |
            slidingSwitches(items, settings.stitched);
 }
@@ -554,12 +557,23 @@ Result<void> ChunkRenderer::reloadShaders() {
     return state_->programs->reload();
 }
 
+// The sky has an atmosphere without lighting too.
+Switches ChunkRenderer::State::skySwitches(const RenderSettings& settings) const {
+    return (settings.atmosphere && !settings.cube ? switchAir : Switches{0}) |
+           (airIsPhysical(settings) ? switchPhysicalAir : Switches{0});
+}
+
+void ChunkRenderer::State::addSkyPrograms(Switches skySwitches, DrawnWith& with) const {
+    if ((skySwitches & switchAir) != 0) with.sky = &programs->program(skyKey(skySwitches));
+    with.stars = &programs->program(starsKey(skySwitches));
+}
+
 DrawnWith ChunkRenderer::State::programsFor(Switches switches, Switches skySwitches) const {
-    const bool shadowed = (switches & switchShadows) != 0;
-    return {&programs->program({ProgramUse::Chunk, switches}),
-            shadowed ? &programs->program(depthKey(switches)) : nullptr,
-            (skySwitches & switchAir) != 0 ? &programs->program(skyKey(skySwitches)) : nullptr,
-            &programs->program(starsKey(skySwitches)), false};
+    DrawnWith with;
+    with.chunk = &programs->program({ProgramUse::Chunk, switches});
+    if ((switches & switchShadows) != 0) with.depth = &programs->program(depthKey(switches));
+    addSkyPrograms(skySwitches, with);
+    return with;
 }
 
 // Returns the ready programs. For the others, returns the most similar ready ones and orders the missing
@@ -611,10 +625,7 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.bindInputs();
     const Switches switches =
         state.chooseSwitches(view, items, settings, !tints.empty(), shadowed ? switchShadows : Switches{0});
-    const bool airInSky = settings.atmosphere && !settings.cube;
-    const bool physicalSky = state.airIsPhysical(settings);
-    const Switches skySwitches =
-        (airInSky ? switchAir : Switches{0}) | (physicalSky ? switchPhysicalAir : Switches{0});
+    const Switches skySwitches = state.skySwitches(settings);
     const std::uint32_t drawnBefore = state.programs->firstDraws();
     const bool mayStandIn = wait == ShaderWait::Never && state.programs->canOrder();
     const DrawnWith with =
@@ -639,8 +650,8 @@ void ChunkRenderer::draw(const View& view, std::span<const DrawItem> items, cons
     state.counters.shadowsMs = shadowed ? state.shadowsTimer.lastMs() : 0;
     state.counters.newPrograms = state.programs->firstDraws() - drawnBefore;
     state.counters.uploads = std::exchange(state.uploads, 0);
-    state.counters.standIn =
-        with.standIn || (state.wantsPhysicalAir(settings) && !physicalSky && state.air.figures().working);
+    state.counters.standIn = with.standIn || (state.wantsPhysicalAir(settings) &&
+                                              !state.airIsPhysical(settings) && state.air.figures().working);
 }
 
 Result<std::vector<glm::vec3>> ChunkRenderer::readVertexPositions(const View& view,
@@ -757,7 +768,8 @@ void ChunkRenderer::draw(const View& view, const CapturedDraw& captured) {
     glBindVertexArray(captured.array.name());
     glDrawElements(GL_TRIANGLES, captured.indexCount, GL_UNSIGNED_INT, nullptr);
     glDisable(GL_CULL_FACE);
-    const DrawnWith with = state.programsFor(state.drawnSwitches & ~switchShadows, state.drawnSkySwitches);
+    DrawnWith with;
+    state.addSkyPrograms(state.drawnSkySwitches, with);
     state.sky.draw(view, with.sky, with.stars);
     state.endPicture();
 }

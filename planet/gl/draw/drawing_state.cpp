@@ -75,11 +75,14 @@ void endDepthTest(bool reversedZ) {
     glDisable(GL_DEPTH_TEST);
 }
 
-DrawingState currentDrawingState(bool reversedZ) {
-    DrawingState state{.reversedZ = reversedZ, .samples = 1, .textures = {}};
+int boundSamples() {
     GLint samples = 0;
     glGetIntegerv(GL_SAMPLES, &samples);
-    state.samples = std::max(samples, 1);
+    return std::max(samples, 1);
+}
+
+DrawingState currentDrawingState(bool reversedZ) {
+    DrawingState state{.reversedZ = reversedZ, .samples = boundSamples(), .textures = {}};
     for (GLuint unit = 0; unit < samplerCount; ++unit) {
         glActiveTexture(GL_TEXTURE0 + unit);
         for (const auto& [target, binding] : targets) {

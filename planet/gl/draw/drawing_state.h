@@ -30,6 +30,9 @@ struct DrawingState {
     std::vector<BoundTexture> textures;
 };
 
+// Returns the samples per pixel of the draw framebuffer, >= 1.
+int boundSamples();
+
 // Reads the current state; samples are those of the draw framebuffer. Leaves texture unit 0 active.
 DrawingState currentDrawingState(bool reversedZ);
 

@@ -165,7 +165,7 @@ Switches switchesFor(const PlanetShape& shape, const View& view, const RenderSet
            when(isSeaSurfaceDrawn(settings, software), switchSeaSurface) | when(tinted, switchTint) |
            when(settings.wireframe, switchWireframe) | when(settings.outlines, switchOutlines) |
            when(settings.skirtPaint != SkirtPaint::AsGround, switchLoudSkirts) |
-           when(software, switchHeldFrame) | when(!software, switchAnisotropy);
+           when(software, switchHeldFrame);
 }
 
 FrameUniforms frameUniforms(const PlanetShape& shape, const View& view, const Projection& projection,

@@ -18,7 +18,7 @@ struct RenderCounters {
     // With ShaderWait::Never: the programs for the settings are still being compiled, or the first tables of
     // the atmosphere computed. Other programs drew the frame, or none, so it does not show the settings.
     bool standIn = false;
-    // Programs that were drawn with for the first time. The draw waited until the driver had compiled them.
+    // With ShaderWait::UntilReady: the programs that were used for the first time. The draw waited for their compilation.
     std::uint32_t newPrograms = 0;
 
     std::uint64_t triangles() const { return groundTriangles + skirtTriangles; }
@@ -31,6 +31,7 @@ struct RenderCapabilities {
     bool reversedZ = false;
     int samples = 1;        // the largest for a RenderTarget
     bool software = false;  // the CPU renders
+    float anisotropy = 1;   // of the samplers of tiles
 };
 
 // The GPU memory that the renderer holds, bytes.

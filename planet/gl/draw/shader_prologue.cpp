@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <glm/gtc/type_ptr.hpp>
-
 #include <type_traits>
 
 #include "planet/format/colour_tile.h"

@@ -182,7 +182,8 @@ void TilePool::uploadRoot(const TileData& root) {
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
 }
 
-// Makes a resident tile that of a place in the tree and of all its descendants, none of which is resident.
+// Writes a resident tile, or noTile, to the page of a place in the tree and to those of all its descendants, none of which
+// is resident.
 void TilePool::setPages(const ChunkId& tile, std::uint16_t slot, std::uint16_t tileLevel) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, pages_.name());
     for (int level = tile.level; level <= leafLevel_; ++level) {
