@@ -193,23 +193,23 @@ OwnedPoint pointOf(ivec2 vertex) {
 // The drawn state of a vertex, or of several mixed.
 struct Drawn {
     vec3 position;
+    vec3 up;       // from the planet's centre, of about unit length
     vec2 place;    // on the face's grid, in cells of the finest level
     float height;  // steps
 };
 
-// Returns the state of a vertex that does not slide. point: that of the vertex.
-Drawn drawnAt(ivec3 corner, ivec2 vertex, OwnedPoint point, float drop) {
-    vec3 up;
-    int heightStep = stepAt(corner, vertex);
-    return Drawn(positionOf(point, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
-}
-
+// Returns the state of a vertex that does not slide.
 Drawn ownDrawn(ivec3 corner, ivec2 vertex, float drop) {
-    return drawnAt(corner, vertex, pointOf(vertex), drop);
+    int heightStep = stepAt(corner, vertex);
+    Drawn drawn;
+    drawn.position = positionOf(pointOf(vertex), heightStep, drop, drawn.up);
+    drawn.place = vec2(gridPointOf(vertex));
+    drawn.height = float(heightStep);
+    return drawn;
 }
 
 Drawn middleOf(Drawn a, Drawn b) {
-    return Drawn(0.5 * (a.position + b.position), 0.5 * (a.place + b.place), 0.5 * (a.height + b.height));
+    return Drawn(0.5 * (a.position + b.position), a.up, 0.5 * (a.place + b.place), 0.5 * (a.height + b.height));
 }
 
 void slideTo(inout Drawn drawn, Drawn to, float amount) {
@@ -222,23 +222,42 @@ void slideTo(inout Drawn drawn, Drawn to, float amount) {
 void gatherTo(inout Drawn drawn, Drawn to, float amount) {
     float kept = 1.0 - amount;
     drawn.position = kept * drawn.position + amount * to.position;
+    drawn.up += amount * (to.up - drawn.up);
     drawn.place = kept * drawn.place + amount * to.place;
     drawn.height = kept * drawn.height + amount * to.height;
 }
 
-// Returns the drawn state of a coarser chunk's vertex, which stitching may have moved along its edge.
+// A vertex that slides is mixed from up to four vertices: itself, both ends of the edge that replaces it, and the one
+// that it is gathered to. They are computed by a loop: llvmpipe executes both sides of a condition, but it leaves a loop
+// when none of a few vertices is in it any more.
+int mixedFrom(Slide slide) {
+    return slide.amount <= 0.0 ? 1 : slide.gathered > 0.0 ? 4 : 3;
+}
+
+ivec2 mixedVertex(Slide slide, int index) {
+    return slide.vertex + (index == 1 ? -slide.aside : index == 2 ? slide.aside : index == 3 ? slide.onto : ivec2(0));
+}
+
+// Adds the next one of these vertices to those that are mixed so far. before: keeps the second one for the third.
+void mixIn(Drawn next, Slide slide, int index, inout Drawn mixed, inout Drawn before) {
+    if (index == 0) mixed = next;
+    if (index == 1) before = next;
+    if (index == 2) slideTo(mixed, middleOf(before, next), slide.amount);
+    if (index == 3) gatherTo(mixed, next, slide.gathered);
+}
+
+// Returns the state of a coarser chunk's vertex, which stitching may have moved along its edge.
 Drawn coarserDrawn(ivec3 corner, inout ivec2 vertex, int last, float drop) {
-    bool inside = all(greaterThan(vertex, ivec2(0))) && all(lessThan(vertex, ivec2(last)));
-    if (inside) return ownDrawn(corner, vertex, drop);
     Slide slide = slideOf(vertex, last);
     vertex = slide.vertex;
-    Drawn drawn = ownDrawn(corner, vertex, drop);
-    if (slide.aside == ivec2(0)) return drawn;
-    slideTo(drawn, middleOf(ownDrawn(corner, vertex - slide.aside, drop),
-                            ownDrawn(corner, vertex + slide.aside, drop)), slide.amount);
-    if (slide.gathered > 0.0)
-        gatherTo(drawn, ownDrawn(corner, vertex + slide.onto, drop), slide.gathered);
-    return drawn;
+    bool inside = all(greaterThan(vertex, ivec2(0))) && all(lessThan(vertex, ivec2(last)));
+    int count = inside || slide.aside == ivec2(0) ? 1 : mixedFrom(slide);
+    Drawn mixed, before;
+    int index = 0;
+    do {
+        mixIn(ownDrawn(corner, mixedVertex(slide, index), drop), slide, index, mixed, before);
+    } while (++index < count);
+    return mixed;
 }
 
 void main() {
@@ -248,39 +267,34 @@ void main() {
     int last = 1 << frame.chunkCellsLog2;
     Slide slide = Slide(ivec2(gridVertex), ivec2(0), 0.0, ivec2(0), 0.0);
     if (switchSlide) slide = slideOf(slide.vertex, last);
-    ivec2 vertex = slide.vertex;
 
     ivec3 corner = slotCorner(chunkSlot, last);
-    int heightStep = stepAt(corner, vertex);
     float drop = skirt == 0u ? 0.0 : skirtDepthM;
-    float rise = float(heightStep - frame.referenceStep) * frame.quantumM - drop;
-
-    vec3 up;
-    OwnedPoint point = pointOf(vertex);
-    Drawn drawn = Drawn(positionOf(point, heightStep, drop, up), vec2(gridPointOf(vertex)), float(heightStep));
-    ivec2 before = vertex - slide.aside;
-    ivec2 after = vertex + slide.aside;
-    if (switchSlide) {
-        Drawn drawnBefore;
-        Drawn drawnAfter;
-        if (switchGather) {
-            drawnBefore = coarserDrawn(corner, before, last, drop);
-            drawnAfter = coarserDrawn(corner, after, last, drop);
-        } else {
-            // A vertex on an edge of the cube slides along it, so the face that owns it has the other two as well.
-            ivec2 aside = slide.aside << cellLog2();
-            drawnBefore = drawnAt(corner, before, movedBy(point, face, -aside), drop);
-            drawnAfter = drawnAt(corner, after, movedBy(point, face, aside), drop);
+    bool withSlopes = switchLighting || switchLayers || switchLayerPreview;
+    Drawn drawn, before;
+    mat2 steps, stepsBefore;
+    // Only vertices that morph slide: others have moved to the coarser neighbour's vertex.
+    int count = switchMorph ? mixedFrom(slide) : 1;
+    int index = 0;
+    do {
+        ivec2 vertex = mixedVertex(slide, index);
+        bool ofCoarser = index == 1 || index == 2;
+        Drawn next;
+        if (switchGather && ofCoarser)
+            next = coarserDrawn(corner, vertex, last, drop);
+        else
+            next = ownDrawn(corner, vertex, drop);
+        mixIn(next, slide, index, drawn, before);
+        if (withSlopes) {
+            // Lighting also changes to that of the coarser mesh, interpolated between the same two of its vertices.
+            mat2 nextSteps = slopes(corner, vertex, last, stepAt(corner, vertex), ofCoarser ? 2 : 1);
+            if (index == 0) steps = nextSteps;
+            if (index == 1) stepsBefore = nextSteps;
+            if (index == 2) steps += slide.amount * (0.5 * (stepsBefore + nextSteps) - steps);
+            if (index == 3) steps += slide.gathered * (nextSteps - steps);
         }
-        slideTo(drawn, middleOf(drawnBefore, drawnAfter), slide.amount);
-    }
-    ivec2 gatherVertex = vertex + slide.onto;
-    if (slide.gathered > 0.0) {
-        gatherTo(drawn, ownDrawn(corner, gatherVertex, drop), slide.gathered);
-        vec3 gatherUp;
-        positionOf(pointOf(gatherVertex), stepAt(corner, gatherVertex), drop, gatherUp);
-        up += slide.gathered * (gatherUp - up);
-    }
+    } while (++index < count);
+    vec3 up = drawn.up;
     vec3 position = drawn.position;
     float height = frame.baseHeightM + drawn.height * frame.quantumM;
     vec3 normal = up;
@@ -288,24 +302,13 @@ void main() {
     sunLit = skyLit = airLit = vec3(0.0);
     groundArriving = airArriving = vec4(0.0);
     steep = 0.0;
-    if (switchLighting || switchLayers || switchLayerPreview) {
-        mat2 steps = slopes(corner, vertex, last, heightStep, 1);
-        // Lighting also changes to that of the coarser mesh, interpolated between the same two of its
-        // vertices.
-        if (switchMorph && slide.amount > 0.0) {
-            mat2 coarser = 0.5 * (slopes(corner, before, last, stepAt(corner, before), 2) +
-                                  slopes(corner, after, last, stepAt(corner, after), 2));
-            steps += slide.amount * (coarser - steps);
-            if (slide.gathered > 0.0)
-                steps += slide.gathered *
-                         (slopes(corner, gatherVertex, last, stepAt(corner, gatherVertex), 1) - steps);
-        }
+    if (withSlopes) {
         float stepsPerSlope = frame.quantumM / (float(1 << cellLog2()) * fineCell);
         vec2 heightSlope = vec2(steps[0].x, steps[1].x) * (stepsPerSlope * frame.reliefBoost);
         vec2 coordinates = drawn.place * fineCell - 1.0;
         normal = switchCube
                      ? fromFace(face, vec3(frame.cubeHalfM, -heightSlope))
-                     : normalOnSphere(face, coordinates, up, frame.referenceRadiusM + rise, heightSlope);
+                     : normalOnSphere(face, coordinates, up, frame.radiusM + height, heightSlope);
         normal *= inversesqrt(dot(normal, normal));
         float steepest = max(steps[0].y, steps[1].y) * stepsPerSlope / (0.75 * frame.radiusM);
         rough = smoothRise(0.0, 0.09, steepest);

@@ -19,11 +19,6 @@ OwnedPoint ownedPoint(int face, ivec2 grid) {
     return OwnedPoint(owner, (alongFace(owner, cube).yz + side) / 2);
 }
 
-// Returns the point that lies `offset` cells of a face's fine grid away. It must lie on the owning face too.
-OwnedPoint movedBy(OwnedPoint point, int face, ivec2 offset) {
-    return OwnedPoint(point.face, point.grid + alongFace(point.face, fromFace(face, ivec3(0, offset))).yz);
-}
-
 // The position of a vertex on its face.
 struct GridPlace {
     vec2 delta;        // u - u0, v - v0, to the precision of a float
