@@ -82,7 +82,7 @@ vec3 clipmapColours(vec2 place, float face) {
     vec2 dx = dFdx(place);
     vec2 dy = dFdy(place);
     float level = levelWanted(dx, dy, shading.colours);
-    if (level <= 0.0) return rootTexel(colourRoots, place, face, dx, dy).rgb;
+    if (level <= 0.0) return rootColour(level, place, face, dx, dy);
     level = min(level, finestOfClipmap(clipmapDistance(place, int(face + 0.5))));
     int coarser = int(floor(level));
     vec3 coarse = coloursOfClipmap(coarser, place, face, dx, dy);

@@ -15,14 +15,19 @@ uvec4 tilePages(usampler2DArray pages, int leafLevel, int level, vec2 place, flo
     return texelFetch(pages, ivec3(cell, int(face + 0.5)), leafLevel - level);
 }
 
-// Samples a tile. dx, dy: screen-space derivatives of the place.
-vec4 tileTexel(sampler2DArray slots, uvec2 page, vec2 place, vec2 dx, vec2 dy) {
+// Returns the texture coordinates of a place in the tile of a page.
+vec3 onTileOf(uvec2 page, vec2 place) {
     float tiles = float(1 << int(page.g));
     vec2 tile = clamp(floor(place * tiles), vec2(0.0), vec2(tiles - 1.0));
-    vec3 at = vec3(onTile(place * tiles - tile), float(page.r));
+    return vec3(onTile(place * tiles - tile), float(page.r));
+}
+
+// Samples a tile. dx, dy: screen-space derivatives of the place.
+vec4 tileTexel(sampler2DArray slots, uvec2 page, vec2 place, vec2 dx, vec2 dy) {
+    vec3 at = onTileOf(page, place);
     // Tiles have no mipmaps, so derivatives matter to an anisotropic sampler only.
     if (!switchAnisotropy) return textureLod(slots, at, 0.0);
-    float scale = tiles * (float(tileCells) / float(tileTexels));
+    float scale = float(1 << int(page.g)) * (float(tileCells) / float(tileTexels));
     return textureGrad(slots, at, dx * scale, dy * scale);
 }
 

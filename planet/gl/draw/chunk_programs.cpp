@@ -52,7 +52,7 @@ Result<Program> buildProgram(const std::filesystem::path& folder, ShaderFiles ve
 // Returns whether everything that the drawn variant reads is bound for the wanted one.
 bool hasInputsFor(Switches drawn, Switches wanted) {
     constexpr Switches reading = switchImage | switchTiles | switchClipmap | switchRamp | switchShadows |
-                                 switchNormalTiles | switchPhysicalAir;
+                                 switchMipmapsInTiles | switchNormalTiles | switchPhysicalAir;
     return (drawn & ~wanted & reading) == 0;
 }
 

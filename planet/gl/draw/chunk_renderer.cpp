@@ -305,7 +305,8 @@ ColoursDrawn ChunkRenderer::State::coloursDrawn(const RenderSettings& settings) 
             colours->leafLevel(),
             colours->anisotropy(),
             settings.texelsPerPixel,
-            drawsClipmap()};
+            drawsClipmap(),
+            colours->hasMipmapsInTiles()};
 }
 
 bool ChunkRenderer::State::drawsNormals(const RenderSettings& settings) const {

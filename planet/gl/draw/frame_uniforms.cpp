@@ -160,6 +160,7 @@ Switches switchesFor(const PlanetShape& shape, const View& view, const RenderSet
            when(settings.cube, switchCube) | when(detail, switchDetail) | when(fineDetail, switchFineDetail) |
            when(withImage, switchImage) | when(tiles, switchTiles) |
            when(tiles && colours.fromClipmap, switchClipmap) |
+           when(tiles && colours.mipmapsInTiles, switchMipmapsInTiles) |
            when(rampSeen && !settings.ramp.empty(), switchRamp) |
            when(withImage && rampSeen, switchImageOverRamp) | when(settings.sea, switchSea) |
            when(isSeaSurfaceDrawn(settings, software), switchSeaSurface) | when(tinted, switchTint) |

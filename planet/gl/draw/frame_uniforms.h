@@ -79,9 +79,10 @@ struct ColoursDrawn {
     int faceSizePx = 0;     // texels along a face at the finest level; 0: no colours
     bool streamed = false;  // the members below describe streamed colours
     int leafLevel = 0;
-    double anisotropy = 1;      // of the sampler, >= 1
-    double texelsPerPixel = 1;  // TileSettings
-    bool fromClipmap = false;   // drawn from the clipmap instead of the tiles
+    double anisotropy = 1;        // of the sampler, >= 1
+    double texelsPerPixel = 1;    // TileSettings
+    bool fromClipmap = false;     // drawn from the clipmap instead of the tiles
+    bool mipmapsInTiles = false;  // TilePool::hasMipmapsInTiles
 
     bool exist() const { return faceSizePx > 0; }
 };

@@ -40,6 +40,7 @@ std::string sharedConstants() {
     PLANET_DECLARE(tileBorderBefore)
     PLANET_DECLARE(tileTexels)
     PLANET_DECLARE(noTile)
+    PLANET_DECLARE(coarsestRootMipmap)
     PLANET_DECLARE(maxColourLevel)
     PLANET_DECLARE(maxRampStops)
     PLANET_DECLARE(maxLayers)

@@ -27,6 +27,7 @@ namespace planet::gl {
     SWITCH(switchImage)          /* colours from an image or from tiles; off: the height ramp */  \
     SWITCH(switchTiles)          /* the image is streamed in tiles (colour_tiles.glsl) */         \
     SWITCH(switchClipmap)        /* the tiles are drawn from a clipmap (colour_clipmap.glsl) */   \
+    SWITCH(switchMipmapsInTiles) /* the array of tiles also holds the mipmaps of the roots */     \
     SWITCH(switchRamp)           /* the ramp has stops of its own; off: the built-in ramp */      \
     SWITCH(switchImageOverRamp)  /* the image is translucent: the ramp shows through */           \
     SWITCH(switchLayers)         /* texture layers (layers.glsl) */                               \

@@ -39,7 +39,8 @@ Texture makeArray() {
 std::uint32_t mostColourTiles() {
     GLint layers = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-    return std::min(static_cast<std::uint32_t>(std::max(layers, 0)), noTile);
+    const auto most = static_cast<std::uint32_t>(std::max(layers, static_cast<GLint>(faceCount)));
+    return std::min(most - static_cast<std::uint32_t>(faceCount), noTile);
 }
 
 Result<TilePool> TilePool::create(const ColourPoolConfig& config) {
@@ -51,6 +52,7 @@ Result<TilePool> TilePool::create(const ColourPoolConfig& config) {
     texels.format = GL_RGB;
     texels.type = GL_UNSIGNED_BYTE;
     texels.isCompressed = compressed;
+    texels.mipmapsInTiles = !compressed && isSoftwareRenderer();
     texels.tileBytes = colourTileBytes(compressed ? ColourFormat::Bc1 : ColourFormat::Lossless);
     texels.rootBytes = colourTileBytes(ColourFormat::Lossless);
     texels.colours = config.format;
@@ -88,7 +90,7 @@ Result<TilePool> TilePool::make(const Texels& texels, int leafLevel, std::uint32
 }
 
 void TilePool::allocate() {
-    const auto layers = static_cast<GLsizei>(tileCapacity_);
+    const auto layers = static_cast<GLsizei>(tileCapacity_ + (texels_.mipmapsInTiles ? faceCount : 0));
     tiles_ = makeArray();
     anisotropy_ = anisotropyToUse();
     setSampling(GL_LINEAR, GL_LINEAR, 0);
@@ -101,7 +103,7 @@ void TilePool::allocate() {
                      tileTexels, layers, 0, texels_.format, texels_.type, nullptr);
     }
     roots_ = makeArray();
-    setSampling(mipmapFilter(), GL_LINEAR, std::bit_width(static_cast<unsigned>(tileTexels)) - 1);
+    setSampling(mipmapFilter(), GL_LINEAR, coarsestRootMipmap);
     if (anisotropy_ > 1) glTexParameterf(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy_);
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(texels_.rootsInternalFormat), tileTexels,
                  tileTexels, faceCount, 0, texels_.format, texels_.type, nullptr);
@@ -180,6 +182,29 @@ void TilePool::uploadRoot(const TileData& root) {
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, static_cast<GLint>(root.id.face), tileTexels, tileTexels, 1,
                     texels_.format, texels_.type, texels.data());
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+    if (texels_.mipmapsInTiles) copyMipmaps(root.id.face);
+}
+
+// Copies the mipmaps of a root into a layer behind the slots: each one to the right of the one that is twice as large, so
+// that the shader finds them by a formula (colour_tiles.glsl).
+void TilePool::copyMipmaps(Face face) {
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (int level = 1; level <= coarsestRootMipmap; ++level) {
+        const int side = tileTexels >> level;
+        const int column = tileTexels - (tileTexels >> (level - 1));
+        const std::size_t faceBytes = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 3;
+        std::vector<std::uint8_t> texels(faceBytes * faceCount);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, roots_.name());
+        glGetTexImage(GL_TEXTURE_2D_ARRAY, level, texels_.format, texels_.type, texels.data());
+        glBindTexture(GL_TEXTURE_2D_ARRAY, tiles_.name());
+        glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, column, 0,
+                        static_cast<GLint>(tileCapacity_) + static_cast<GLint>(face), side, side, 1,
+                        texels_.format, texels_.type,
+                        texels.data() + faceBytes * static_cast<std::size_t>(face));
+    }
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
 // Writes a resident tile, or noTile, to the page of a place in the tree and to those of all its descendants, none of which
@@ -212,8 +237,8 @@ void TilePool::setPages(const ChunkId& tile, std::uint16_t slot, std::uint16_t t
 std::size_t TilePool::bytes() const {
     std::size_t pageTexels = 0;
     for (int level = 0; level <= leafLevel_; ++level) pageTexels += std::size_t{faceCount} << (2 * level);
-    return tileCapacity_ * texels_.tileBytes + faceCount * texels_.rootBytes * 4 / 3 +
-           pageTexels * sizeof(Page);
+    return (tileCapacity_ + (texels_.mipmapsInTiles ? faceCount : 0)) * texels_.tileBytes +
+           faceCount * texels_.rootBytes * 4 / 3 + pageTexels * sizeof(Page);
 }
 
 }  // namespace planet::gl

@@ -4,11 +4,13 @@
 // The pool is a texture array with one tile per layer; the layer is the tile's slot. The page table has a
 // texel for each possible tile of each level. It names the finest resident tile that covers it: the tile
 // itself, an ancestor, or none. So one lookup finds the best tile for any place at any level. The six roots
-// also exist with mipmaps, for a planet that is small in the picture.
+// also exist with mipmaps, for a planet that is small in the picture. With software rendering, those mipmaps of colours
+// lie in the same array as the tiles too, because one sampler for all costs less there.
 //
 // All calls require the same current context; one thread.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,6 +28,8 @@ namespace planet::gl {
 
 // The slot in pages over which no tile is resident.
 inline constexpr std::uint32_t noTile = 0xFFFF;
+
+inline constexpr int coarsestRootMipmap = std::bit_width(static_cast<unsigned>(tileTexels)) - 1;  // one texel
 
 // Returns the largest number of tiles that the context can hold in one pool.
 std::uint32_t mostColourTiles();
@@ -45,6 +49,8 @@ public:
     GLuint roots() const { return roots_.name(); }
     // Returns whether tiles stay BC1 on the GPU; without BC1 support they are unpacked.
     bool isCompressed() const { return texels_.isCompressed; }
+    // Returns whether the last six layers of the tiles hold the mipmaps of the roots, one face per layer.
+    bool hasMipmapsInTiles() const { return texels_.mipmapsInTiles; }
     float anisotropy() const { return anisotropy_; }  // of the sampler, >= 1
     std::size_t bytes() const;
 
@@ -56,6 +62,7 @@ private:
         GLenum format = 0;
         GLenum type = 0;
         bool isCompressed = false;
+        bool mipmapsInTiles = false;
         std::size_t tileBytes = 0;  // on the GPU
         std::size_t rootBytes = 0;
         std::optional<ColourFormat> colours{};  // format of the incoming tiles; unset: normals
@@ -76,6 +83,7 @@ private:
     void reset();
     void upload(std::uint32_t slot, const TileData& tile);
     void uploadRoot(const TileData& root);
+    void copyMipmaps(Face face);
     std::vector<std::uint8_t> unpacked(const TileData& tile) const;
     void setPages(const ChunkId& tile, std::uint16_t slot, std::uint16_t tileLevel);
     Page pageOf(const ChunkId& tile) const;

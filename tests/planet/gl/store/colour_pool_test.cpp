@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "planet/sphere/face_fold.h"
 #include "tests/planet/gl/streamed_colours.h"
 
 namespace planet::gl {
@@ -19,6 +20,51 @@ TEST_F(StreamedColours, AreTheSourcesEverywherePolesAndDateLineIncluded) {
                 const View view = viewFrom({}, latitude, longitude, altitudeM);
                 EXPECT_LE(furthestFromSource(drawn(view), view), format == ColourFormat::Bc1 ? 8 : 5)
                     << latitude << " " << longitude << " " << altitudeM;
+            }
+        }
+    }
+}
+
+// Returns the face that a direction passes through; nothing if it passes within a distance of an edge.
+std::optional<Face> faceAwayFromEdges(const glm::dvec3& direction, double distance) {
+    const glm::dvec3 away = glm::abs(direction);
+    const int axis = away.x > away.y && away.x > away.z ? 0 : away.y > away.z ? 1 : 2;
+    if (away[axis] - std::max(away[(axis + 1) % 3], away[(axis + 2) % 3]) < distance) return std::nullopt;
+    glm::dvec3 normal(0);
+    normal[axis] = direction[axis] < 0 ? -1 : 1;
+    return faceAlong(normal);
+}
+
+// A pixel then covers up to dozens of texels of a root, so the mipmaps of the roots are drawn. Up to its edges, a face shows
+// no colour of another face and no empty texel.
+TEST_F(StreamedColours, OfAFarPlanetAreThoseOfItsFaces) {
+    constexpr std::array<double, faceCount> linear = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    for (const ColourFormat format : {ColourFormat::Lossless, ColourFormat::Bc1}) {
+        useFormat(format);
+        addAll([&](const ChunkId& id) {
+            return plainTile(id, glm::ivec3(srgb(linear[static_cast<std::size_t>(id.face)])));
+        });
+        for (const double altitudeM : {2e7, 6e7, 1.5e8}) {
+            const double pixel =
+                1.5 * altitudeM / PlanetShape().radiusM / 129;  // in radii, and a little more
+            for (const auto& [latitude, longitude] : {std::pair{35.0, 45.0}, {-35.0, -135.0}}) {
+                const View view = viewFrom({}, latitude, longitude, altitudeM, -90, 0, 129, 129);
+                const Picture picture = drawn(view);
+                int compared = 0;
+                for (int pixelIndex = 0; pixelIndex < 129 * 129; ++pixelIndex) {
+                    const int column = pixelIndex % 129;
+                    const int row = pixelIndex / 129;
+                    const auto ground = groundAt(view, column, row);
+                    if (!ground) continue;
+                    const auto face = faceAwayFromEdges(*ground, pixel);
+                    if (!face) continue;
+                    const double expected = linear[static_cast<std::size_t>(*face)];
+                    EXPECT_NEAR(picture.at(column, row).y, srgb(1.2 * expected),
+                                format == ColourFormat::Bc1 ? 6 : 2)
+                        << altitudeM << " " << column << " " << row;
+                    ++compared;
+                }
+                EXPECT_GT(compared, 10) << altitudeM;
             }
         }
     }
