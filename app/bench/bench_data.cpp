@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/trigonometric.hpp>
+#include <thread>
 
 #include "app/bench/bench_parts.h"
 #include "planet/bake/bake.h"
@@ -101,7 +102,11 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
     const auto readOne = [&](const BlockToRead& block) {
         return file->readChildren(block.parent, block.location, *block.parentHeights);
     };
-    const std::array<std::function<void()>, 4> jobs = {
+    // Every other block, for two threads.
+    const auto readHalf = [&](std::size_t first) {
+        for (std::size_t i = first; i < blocks.size(); i += 2) static_cast<void>(readOne(blocks[i]));
+    };
+    const std::array<std::function<void()>, 5> jobs = {
         [&] { loadWith(1); },
         [&] {
             for (const BlockToRead& block : blocks) static_cast<void>(readOne(block));
@@ -111,6 +116,10 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
         [&] {
             std::vector<Result<planet::SiblingBlock>> kept;
             for (const BlockToRead& block : blocks) kept.push_back(readOne(block));
+        },
+        [&] {
+            const std::jthread other(readHalf, std::size_t{1});
+            readHalf(0);
         }};
     const std::vector<std::vector<double>> ms = timeInTurn(jobs, options.rounds);
     if (blocks.empty()) return planet::badInput(planet.chunkFile.string() + ": no block could be loaded");
@@ -120,6 +129,8 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
     rows.front().aim = {.bound = 0.9, .isUpperBound = false, .isOfRatio = true};
     two.aim = {.bound = 1.6, .isUpperBound = false, .isOfRatio = true};
     rows.insert(rows.begin() + 1, std::move(two));
+    // What this machine makes of two threads that do nothing else.
+    rows.push_back(pairedRates({loop + ", two threads", loop}, "MB/s", bytes / 1e6, {ms[4], ms[1]}).front());
     rows.push_back({loop + ", kept in memory", "rate", "MB/s", spreadOf(perSecond(bytes / 1e6, ms[3]))});
     const auto count = static_cast<double>(blocks.size());
     rows.push_back({"either", "blocks", "", {count, count, count}});
