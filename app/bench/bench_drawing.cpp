@@ -239,7 +239,7 @@ void drawPlain(const PlainMesh& mesh, const planet::View& view) {
 }
 
 // The cost of one frame until the last of its pixels is drawn.
-struct FrameCost {
+struct DrawnFrameCost {
     double wallMs = 0;
     double cpuMs = 0;  // of all threads of the process
     double gpuMs = 0;
@@ -251,7 +251,7 @@ double processCpuMs() {
     return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
-FrameCost measureFrame(const std::function<void()>& frame) {
+DrawnFrameCost measureFrame(const std::function<void()>& frame) {
     const planet::gl::Query begin = planet::gl::makeQuery();
     const planet::gl::Query end = planet::gl::makeQuery();
     glFinish();
@@ -261,7 +261,7 @@ FrameCost measureFrame(const std::function<void()>& frame) {
     frame();
     glQueryCounter(end.name(), GL_TIMESTAMP);
     glFinish();
-    FrameCost cost{watch.elapsedMs(), processCpuMs() - cpuMs, 0};
+    DrawnFrameCost cost{watch.elapsedMs(), processCpuMs() - cpuMs, 0};
     std::array<GLuint64, 2> ns{};
     glGetQueryObjectui64v(begin.name(), GL_QUERY_RESULT, ns.data());
     glGetQueryObjectui64v(end.name(), GL_QUERY_RESULT, &ns[1]);
@@ -294,23 +294,23 @@ void addFrames(const std::vector<FrameSubject>& subjects, const std::string& yar
     std::vector<std::function<void()>> frames;
     for (const FrameSubject& subject : subjects) frames.push_back(subject.draw);
     warmUp(frames);
-    std::vector<std::vector<FrameCost>> costs(subjects.size());
+    std::vector<std::vector<DrawnFrameCost>> costs(subjects.size());
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < subjects.size(); ++i) costs[i].push_back(measureFrame(frames[i]));
     }
     struct Quantity {
         const char* name;
-        double FrameCost::*ms;
+        double DrawnFrameCost::*ms;
         bool isAimed;
     };
-    std::vector<Quantity> quantities = {{"frame", &FrameCost::wallMs, false},
-                                        {"CPU, all threads", &FrameCost::cpuMs, software}};
-    if (!software) quantities.push_back({"GPU", &FrameCost::gpuMs, true});
+    std::vector<Quantity> quantities = {{"frame", &DrawnFrameCost::wallMs, false},
+                                        {"CPU, all threads", &DrawnFrameCost::cpuMs, software}};
+    if (!software) quantities.push_back({"GPU", &DrawnFrameCost::gpuMs, true});
     for (std::size_t i = 0; i < subjects.size(); ++i) {
         for (const Quantity& quantity : quantities) {
-            const auto values = [&](const std::vector<FrameCost>& of) {
+            const auto values = [&](const std::vector<DrawnFrameCost>& of) {
                 std::vector<double> ms;
-                for (const FrameCost& cost : of) ms.push_back(cost.*quantity.ms);
+                for (const DrawnFrameCost& cost : of) ms.push_back(cost.*quantity.ms);
                 return ms;
             };
             BenchRow row{subjects[i].name, quantity.name, "ms", spreadOf(values(costs[i]))};

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int cellsToEdge = 90;  // of the grid, from the middle of a face to its edge
 static_assert(starCellRad * cellsToEdge == 1);
-constexpr int tileCells = 15;
-constexpr int tilesAcross = 2 * cellsToEdge / tileCells;
+constexpr int cellsPerTile = 15;
+constexpr int tilesAcross = 2 * cellsToEdge / cellsPerTile;
 constexpr float shareWithout = 0.86F;  // of the cells
 
 // Returns an even value in [0, 1).
@@ -47,8 +47,8 @@ void addStar(int face, int column, int row, std::vector<Star>& stars) {
 
 StarTile tileAt(int face, int column, int row) {
     const auto corner = [&](int right, int up) {
-        const glm::vec2 cell(static_cast<float>((column + right) * tileCells - cellsToEdge),
-                             static_cast<float>((row + up) * tileCells - cellsToEdge));
+        const glm::vec2 cell(static_cast<float>((column + right) * cellsPerTile - cellsToEdge),
+                             static_cast<float>((row + up) * cellsPerTile - cellsToEdge));
         return directionOfCell(face, cell);
     };
     const std::array<glm::dvec3, 4> corners = {corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)};
@@ -70,9 +70,9 @@ StarField makeStarField() {
             const int row = place / tilesAcross;
             StarTile tile = tileAt(face, column, row);
             tile.first = static_cast<std::uint32_t>(field.stars.size());
-            for (int cell = 0; cell < tileCells * tileCells; ++cell)
-                addStar(face, column * tileCells + cell % tileCells, row * tileCells + cell / tileCells,
-                        field.stars);
+            for (int cell = 0; cell < cellsPerTile * cellsPerTile; ++cell)
+                addStar(face, column * cellsPerTile + cell % cellsPerTile,
+                        row * cellsPerTile + cell / cellsPerTile, field.stars);
             tile.count = static_cast<std::uint32_t>(field.stars.size()) - tile.first;
             field.tiles.push_back(tile);
         }
