@@ -281,14 +281,19 @@ void warmUp(std::span<const std::function<void()>> frames) {
     }
 }
 
-// One of the frames that are compared; the last of them is the yardstick.
+// One of the frames that are compared; the last of them is the usual yardstick.
 struct FrameSubject {
     std::string name;
     std::function<void()> draw;
     std::optional<BenchAim> aim{};  // of what bounds the frame: the CPU with software rendering, else the GPU
+    struct Yardstick {
+        std::size_t subject = 0;  // index
+        std::string name;
+    };
+    std::optional<Yardstick> yardstick{};  // unset: the usual one
 };
 
-// Adds the rows of frames that are measured in turn.
+// Adds the rows of frames that are measured in turn. yardstick: name of the usual one.
 void addFrames(const std::vector<FrameSubject>& subjects, const std::string& yardstick, int rounds,
                bool software, std::vector<BenchRow>& rows) {
     std::vector<std::function<void()>> frames;
@@ -315,8 +320,10 @@ void addFrames(const std::vector<FrameSubject>& subjects, const std::string& yar
             };
             BenchRow row{subjects[i].name, quantity.name, "ms", spreadOf(values(costs[i]))};
             if (i + 1 < subjects.size()) {
-                row.ratio = spreadOf(ratios(values(costs[i]), values(costs.back())));
-                row.yardstick = yardstick;
+                const FrameSubject::Yardstick usual{subjects.size() - 1, yardstick};
+                const FrameSubject::Yardstick against = subjects[i].yardstick.value_or(usual);
+                row.ratio = spreadOf(ratios(values(costs[i]), values(costs[against.subject])));
+                row.yardstick = against.name;
                 if (quantity.isAimed) row.aim = subjects[i].aim;
             }
             rows.push_back(std::move(row));
@@ -453,6 +460,7 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
         BenchPlanet planet;
         double aim;
         ViewSettings settings{};
+        std::optional<double> aimOfVertices{};  // in the small picture, relative to the last kind
     };
     ViewSettings detailed;
     detailed.surface.detail = planet::gl::FeatureUse::On;
@@ -460,7 +468,7 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
     plain.surface.lighting = false;
     plain.surface.atmosphere = false;
     plain.surface.detail = planet::gl::FeatureUse::Off;
-    std::vector<Kind> kinds = {{"default settings", planet, 2.5},
+    std::vector<Kind> kinds = {{"default settings", planet, 2.5, {}, 1.23},
                                {"with detail", planet, 4, detailed},
                                {"without light, air and detail", planet, 1.3, plain}};
     if (!colourImage.empty()) {
@@ -491,7 +499,14 @@ BenchRows benchFrame(const BenchPlanet& planet, const planet::HeightSource& sour
         std::vector<FrameSubject> subjects;
         for (std::size_t i = 0; i < kinds.size(); ++i) {
             FrameSubject subject{contenders[i].name, [&, i] { drawFrame(contenders[i], view); }};
-            if (divisor == 1) subject.aim = BenchAim{.bound = kinds[i].aim, .isOfRatio = true};
+            const bool isPlainest = i + 1 == kinds.size();
+            if (divisor == 1) {
+                subject.aim = BenchAim{.bound = kinds[i].aim, .isOfRatio = true};
+            } else if (!isPlainest) {
+                subject.yardstick = {kinds.size() - 1, kinds.back().name};
+                if (kinds[i].aimOfVertices)
+                    subject.aim = BenchAim{.bound = *kinds[i].aimOfVertices, .isOfRatio = true};
+            }
             subjects.push_back(std::move(subject));
         }
         subjects.push_back({picture + ", morph and one texture", [&] { drawPlain(*mesh, view); }});
