@@ -129,7 +129,7 @@ BenchRows benchPageIn(const BenchPlanet& planet, const BenchOptions& options) {
     rows.front().aim = {.bound = 0.9, .isUpperBound = false, .isOfRatio = true};
     two.aim = {.bound = 1.6, .isUpperBound = false, .isOfRatio = true};
     rows.insert(rows.begin() + 1, std::move(two));
-    // What this machine makes of two threads that do nothing else.
+    // This row shows how much faster two threads are on this machine if they only read and decode.
     rows.push_back(pairedRates({loop + ", two threads", loop}, "MB/s", bytes / 1e6, {ms[4], ms[1]}).front());
     rows.push_back({loop + ", kept in memory", "rate", "MB/s", spreadOf(perSecond(bytes / 1e6, ms[3]))});
     const auto count = static_cast<double>(blocks.size());
