@@ -212,6 +212,7 @@ Drawn middleOf(Drawn a, Drawn b) {
     return Drawn(0.5 * (a.position + b.position), a.up, 0.5 * (a.place + b.place), 0.5 * (a.height + b.height));
 }
 
+// Keeps the direction up of the vertex that slides.
 void slideTo(inout Drawn drawn, Drawn to, float amount) {
     drawn.position += amount * (to.position - drawn.position);
     drawn.place += amount * (to.place - drawn.place);
@@ -228,12 +229,16 @@ void gatherTo(inout Drawn drawn, Drawn to, float amount) {
 }
 
 // A vertex that slides is mixed from up to four vertices: itself, both ends of the edge that replaces it, and the one
-// that it is gathered to. They are computed by a loop: llvmpipe executes both sides of a condition, but it leaves a loop
-// when none of a few vertices is in it any more.
+// that it is gathered to. A loop computes them, because llvmpipe executes both sides of a condition but leaves a loop as soon
+// as none of eight vertices remains in it. The loop tests its condition at the end, because otherwise its body would be
+// executed once more.
+//
+// Returns how many vertices are mixed.
 int mixedFrom(Slide slide) {
     return slide.amount <= 0.0 ? 1 : slide.gathered > 0.0 ? 4 : 3;
 }
 
+// Returns the grid's vertex of an index in that order.
 ivec2 mixedVertex(Slide slide, int index) {
     return slide.vertex + (index == 1 ? -slide.aside : index == 2 ? slide.aside : index == 3 ? slide.onto : ivec2(0));
 }

@@ -4,8 +4,8 @@ uniform sampler2DArray colourTiles;   // one slot per layer; the sampler decodes
 uniform usampler2DArray colourPages;  // tilePages(); a face per layer, a level per mipmap, finest first
 uniform sampler2DArray colourRoots;   // one face per layer, with mipmaps
 
-// Returns the texture coordinates of a place in the root that is smaller by powers of two; mip: 1 or more. TilePool places
-// the mipmaps side by side in the layers behind the slots.
+// Returns the texture coordinates of a place in a mipmap of its face's root. mip: [1, coarsestRootMipmap]. TilePool places the
+// mipmaps of a face side by side in one of the layers behind the slots.
 vec3 inMipmap(int mip, vec2 place, float face) {
     float side = float(tileTexels >> mip);
     vec2 within = clamp(onTile(place) * side, vec2(0.5), vec2(side - 0.5));
@@ -13,7 +13,8 @@ vec3 inMipmap(int mip, vec2 place, float face) {
     return vec3(within * (1.0 / float(tileTexels)), float(textureSize(colourTiles, 0).z - faceCount) + face);
 }
 
-// Returns where the roots' mipmap for a level lies, which is 0 or coarser. root: page of the root.
+// Returns the texture coordinates of a place in the root or in its mipmap, for a level of 0 or coarser. root: page of the
+// root.
 vec3 inRoot(float level, uvec2 root, vec2 place, float face) {
     int mip = clamp(int(0.5 - level), 0, coarsestRootMipmap);
     return mip > 0 ? inMipmap(mip, place, face) : onTileOf(root, place);
@@ -27,7 +28,8 @@ vec3 rootColour(float level, vec2 place, float face, vec2 dx, vec2 dy) {
 }
 
 // Returns what streamedColours() does, with as few samples as a pixel needs. llvmpipe executes both sides of a condition,
-// but it leaves a loop when no pixel of a few is in it any more. So the second sample costs nothing where none needs it.
+// but it leaves a loop as soon as none of eight pixels remains in it. So the second sample costs nothing where no pixel needs
+// it. The loop tests its condition at the end, because otherwise its body would be executed once more.
 vec3 coloursInFewSamples(float level, vec2 place, float face) {
     int leaf = shading.colours.leafLevel;
     float within = clamp(level, 0.0, float(leaf));

@@ -108,11 +108,13 @@ std::string aimText(const BenchRow& row) {
 
 void print(const Section& section) {
     fmt::print("\n{}\n", section.title);
+    std::size_t widest = 46;
+    for (const BenchRow& row : section.rows) widest = std::max(widest, row.subject.size());
     for (const BenchRow& row : section.rows) {
         const std::string ratio =
             row.yardstick.empty() ? "" : fmt::format("{} x {}", spreadText(row.ratio), row.yardstick);
-        fmt::print("  {:<48}{:<16}{:>28} {:<11}{}{}\n", row.subject, row.quantity, spreadText(row.value),
-                   row.unit, ratio, aimText(row));
+        fmt::print("  {:<{}}  {:<16}{:>28} {:<11}{}{}\n", row.subject, widest, row.quantity,
+                   spreadText(row.value), row.unit, ratio, aimText(row));
     }
     flushStandardOutput();
 }
