@@ -2,16 +2,12 @@
 // true errors.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "planet/paging/finest_heights.h"
 #include "planet/paging/pager.h"
@@ -31,35 +27,10 @@ struct MadeChunks {
     MadeChunks(const PlanetShape& planetShape, std::function<double(const glm::dvec3&)> height)
         : shape(planetShape), heightM(std::move(height)) {}
 
-    // Of a vertex of a grid of so many cells.
-    std::int16_t step(Face face, int column, int row, int cells) const {
-        const glm::dvec3 d = sphereFromCube(cubePoint(face, 2.0 * column / cells - 1, 2.0 * row / cells - 1));
-        return static_cast<std::int16_t>(std::lround((heightM(d) - shape.baseHeightM) / shape.quantumM));
-    }
+    // Returns the step of a vertex of a face with so many cells along each side.
+    std::int16_t step(Face face, int column, int row, int cells) const;
 
-    ChunkData chunk(const ChunkId& id) const {
-        const int size = chunkCells(shape);
-        const int cells = size << id.level;
-        ChunkData data;
-        data.id = id;
-        std::vector<std::int16_t> steps;
-        for (int row = 0; row <= size; ++row) {
-            for (int column = 0; column <= size; ++column)
-                steps.push_back(step(id.face, static_cast<int>(id.x) * size + column,
-                                     static_cast<int>(id.y) * size + row, cells));
-        }
-        data.heights = steps;
-        std::tie(data.minStep, data.maxStep) = lowestAndHighest(data.heights);
-        if (id.level < deepestLevelOf(shape)) {
-            data.children = {keyOf(id) + 1, 100};
-            data.minStep = lowest;
-            data.maxStep = highest;
-            // So that levels split as they come nearer.
-            data.deltaCM = data.deltaTightM =
-                static_cast<float>(shape.radiusM * 0.3 / (cells * static_cast<double>(cells)));
-        }
-        return data;
-    }
+    ChunkData chunk(const ChunkId& id) const;
 
     Result<SiblingBlock> children(const ChunkId& parent) const {
         if (parent == broken) {

@@ -1,7 +1,6 @@
 // Height sources made of a formula, for tests.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <glm/vec3.hpp>
 
@@ -10,37 +9,11 @@
 namespace planet::test {
 
 // A source whose height, in metres, is a function of the direction alone.
-inline HeightSource formulaSource(std::function<double(const glm::dvec3& direction)> height, double minM,
-                                  double maxM, double stepM = 1, int naturalFaceSize = 129) {
-    HeightSource source;
-    source.description = "formula";
-    source.naturalFaceSize = naturalFaceSize;
-    source.stepM = stepM;
-    source.minM = minM;
-    source.maxM = maxM;
-    source.sample = [height = std::move(height)](const SampleTile& tile,
-                                                 std::span<float> out) -> Result<void> {
-        std::size_t at = 0;
-        for (int j = 0; j < tile.rows; ++j) {
-            for (int i = 0; i < tile.columns; ++i) {
-                const double u = 2.0 * (tile.firstColumn + i) / tile.faceCells - 1;
-                const double v = 2.0 * (tile.firstRow + j) / tile.faceCells - 1;
-                out[at++] = static_cast<float>(height(sphereFromCube(cubePoint(tile.face, u, v))));
-            }
-        }
-        return {};
-    };
-    return source;
-}
+HeightSource formulaSource(std::function<double(const glm::dvec3& direction)> height, double minM,
+                           double maxM, double stepM = 1, int naturalFaceSize = 129);
 
 // Hills of several sizes, rough enough that every level differs from the next.
-inline double hillsM(const glm::dvec3& d) {
-    return std::round(2000 * std::sin(3 * d.x + 1) * std::cos(4 * d.y) + 700 * std::sin(17 * d.z + 9 * d.x) +
-                      150 * std::sin(61 * d.y) * std::sin(67 * d.x + 5) +
-                      40 * std::sin(311 * d.x + 251 * d.y));
-}
-inline HeightSource hillsSource(int naturalFaceSize = 129) {
-    return formulaSource(hillsM, -3000, 3000, 1, naturalFaceSize);
-}
+double hillsM(const glm::dvec3& d);
+HeightSource hillsSource(int naturalFaceSize = 129);
 
 }  // namespace planet::test

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tests {
 
@@ -30,9 +32,11 @@ private:
     std::filesystem::path path_;
 };
 
+// Returns the bytes of a file; none if it cannot be read.
 inline std::string contentOf(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::ostringstream content;
+    content << std::ifstream(file, std::ios::binary).rdbuf();
+    return std::move(content).str();
 }
 
 inline std::size_t fileCountIn(const std::filesystem::path& folder) {
