@@ -182,8 +182,10 @@ Material imageMaterial(float height, float below, Detail detail, float strength)
     float water = max(below * flooded, deep * image.a);
     vec3 shown = image.rgb * 1.2;
     if (isUnderSea()) return Material(shown, water, image.a, shown);
-    vec3 sea = mix(image.rgb, seaByDepth(height), mix(0.8, 0.4, image.a));
-    return Material(mix(shown, sea, water), water, image.a, shown);
+    // Mixes the image with the sea's colour by depth, and what the image shows with that.
+    float byDepth = 0.8 - 0.4 * image.a;
+    vec3 albedo = image.rgb * (1.2 - water * (0.2 + byDepth)) + seaByDepth(height) * (water * byDepth);
+    return Material(albedo, water, image.a, shown);
 }
 
 // Returns the material. height: above the sea level, metres.
@@ -323,6 +325,8 @@ vec3 flatSurface() {
         Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - shading.seaLevelM, albedo);
         albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - anyWater(material)));
     }
+    // Layers may be brighter than a pixel can show, and marks are mixed with what it shows.
+    if (switchLayers || switchLayerPreview || switchTint || switchWireframe || switchOutlines) albedo = min(albedo, 1.0);
     return encodeSrgb(albedo);
 }
 

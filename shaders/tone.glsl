@@ -1,12 +1,12 @@
 // Converts linear light to display colours.
 
-// Encodes colours >= 0 as sRGB, in [0, 1]. A polynomial in the square root replaces the power, with an error below a
-// tenth of an 8-bit step.
+// Encodes colours >= 0 as sRGB; colours above 1 stay above 1. A polynomial in the square root replaces the power, with
+// an error below a tenth of an 8-bit step. Its even powers are those of the colour, so that fewer operations wait for others.
 vec3 encodeSrgb(vec3 colour) {
     vec3 s = sqrt(colour);
-    vec3 curve =
-        -0.0400986 + s * (1.5177435 + s * (-1.4015750 + s * (2.0289406 + s * (-1.6210848 + s * 0.5164015))));
-    return mix(min(curve, 1.0), 12.92 * colour, lessThanEqual(colour, vec3(0.0031308)));
+    vec3 curve = (1.5177435 * s - 0.0400986) +
+                 colour * ((2.0289406 * s - 1.4015750) + colour * (0.5164015 * s - 1.6210848));
+    return mix(curve, 12.92 * colour, lessThanEqual(colour, vec3(0.0031308)));
 }
 
 // Applies a soft roll-off, x (1 + 0.09 x) / (1 + x), and encodes as sRGB: both at once, as a rational
