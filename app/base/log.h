@@ -1,13 +1,13 @@
-// The log, which writes to the terminal and keeps lines for the log panel.
+// The log, which writes to the terminal and keeps lines for the log panel. spdlog is included in log.cpp alone, because a
+// call of its templates compiles all of fmt's formatting again.
 #pragma once
 
-#include <spdlog/logger.h>
+#include <fmt/core.h>
 
 #include <cstddef>
 #include <deque>
 #include <memory>
-#include <mutex>
-#include <vector>
+#include <string_view>
 
 #include "app/base/log_lines.h"
 
@@ -18,8 +18,25 @@ class Log {
 public:
     Log();
 
-    spdlog::logger& operator*() const { return *logger_; }
-    spdlog::logger* operator->() const { return logger_.get(); }
+    void write(LogLevel level, std::string_view text) const;
+
+    // The arguments are those of fmt::format.
+    template <typename... Args>
+    void debug(fmt::format_string<const Args&...> format, const Args&... args) const {
+        write(LogLevel::Debug, fmt::format(format, args...));
+    }
+    template <typename... Args>
+    void info(fmt::format_string<const Args&...> format, const Args&... args) const {
+        write(LogLevel::Info, fmt::format(format, args...));
+    }
+    template <typename... Args>
+    void warn(fmt::format_string<const Args&...> format, const Args&... args) const {
+        write(LogLevel::Warning, fmt::format(format, args...));
+    }
+    template <typename... Args>
+    void error(fmt::format_string<const Args&...> format, const Args&... args) const {
+        write(LogLevel::Error, fmt::format(format, args...));
+    }
 
     // Appends the lines logged since the last call, removes the oldest beyond keptLines, and returns how many of the
     // lines are new.
@@ -28,9 +45,8 @@ public:
     static constexpr std::size_t keptLines = 2000;
 
 private:
-    class Sink;
-    std::shared_ptr<Sink> sink_;
-    std::shared_ptr<spdlog::logger> logger_;
+    struct Output;
+    std::shared_ptr<Output> output_;
 };
 
 }  // namespace worldy

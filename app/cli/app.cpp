@@ -206,7 +206,7 @@ private:
 int runWindow(Window& window, const AppOptions& options, CheckedData data, const OpenSettings& open,
               const Resumed& resumed, Log& log) {
     window.setTitle(fmt::format("{} - Worldy", sourceName(data.set.source)));
-    log->info("{}", window.openGlText());
+    log.info("{}", window.openGlText());
     Session session = startSession(std::move(data.set), options.shaderFolder, log, std::move(data.source));
     session.shaders.worker = window.makeShaderWorker();
     Editor editor(open.settings, open.mayBeSaved ? open.file : fs::path{}, log);
@@ -231,7 +231,7 @@ int runWindow(Window& window, const AppOptions& options, CheckedData data, const
         if (kept) return;
         // A full disk is told once, not every half minute.
         if (std::exchange(isFailureTold, true))
-            log->error("{}", kept.error().message);
+            log.error("{}", kept.error().message);
         else
             editor.tell("The settings and the session were not saved", kept.error().message);
     };
@@ -304,7 +304,7 @@ int runApp(const AppOptions& options) {
     if (window.error().problem == WindowProblem::NoOpenGl) {
         return reportError({planet::ErrorKind::BadInput, window.error().message});
     }
-    if (!resumed.problem.empty()) log->warn("{}", resumed.problem);
+    if (!resumed.problem.empty()) log.warn("{}", resumed.problem);
     printMessage("worldy: no display ({}); writing a picture of the first view instead\n",
                  window.error().message);
     const Result<void> written = writeFirstView(options, *data, open->settings);

@@ -145,7 +145,7 @@ void beginSurvey(AtlasController& controller, AtlasRequest request, AtlasFiles f
     controller.problem.clear();
     controller.cancelled = false;
     files.planet = sourceName(planet.source);
-    notices.log->info("Surveying {}", request.file.string());
+    notices.log.info("Surveying {}", request.file.string());
     controller.files = std::move(files);
     controller.job = std::make_unique<AtlasJob>(std::move(request));
 }
@@ -250,7 +250,7 @@ bool showUnfinished(AtlasController& controller) {
 
 void finishAtlas(AtlasController& controller, planet::Atlas atlas, const Log& log) {
     const AtlasFiles files = controller.files;
-    log->info("Surveyed {} viewpoints: {}", atlas.viewpoints.size(), files.output.string());
+    log.info("Surveyed {} viewpoints: {}", atlas.viewpoints.size(), files.output.string());
     showAtlas(controller, std::move(atlas), files.output);
     if (files.revisited) showComparison(controller, *files.revisited, files.revisitedFile);
 }
@@ -290,7 +290,7 @@ void advanceAtlas(AtlasController& controller, const Log& log) {
     controller.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
     controller.problem = controller.cancelled ? "The survey was cancelled." : result->error().message;
     if (showUnfinished(controller) && controller.cancelled) controller.problem += " Resume continues it.";
-    log->log(controller.cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
+    log.write(controller.cancelled ? LogLevel::Warning : LogLevel::Error, controller.problem);
 }
 
 Result<ui::AtlasComparison> comparisonOf(const planet::Atlas& earlier,

@@ -140,7 +140,7 @@ void advanceFlight(CompareController& controller, const Log& log) {
     }
     controller.flight.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
     controller.flight.problem = controller.flight.cancelled ? "Cancelled." : result->error().message;
-    if (!controller.flight.cancelled) log->error("{}", controller.flight.problem);
+    if (!controller.flight.cancelled) log.error("{}", controller.flight.problem);
 }
 
 ComparedFigures figuresOf(const FrameStats& stats, const ComparedMeters& meters) {
@@ -280,14 +280,14 @@ void stepCompared(CompareController& controller, const CompareFrame& now, const 
         const Result<void> same = checkSameRadius(radiusOf(now.a), radiusOf(b));
         if (!same) {
             controller.problem = same.error().message;
-            log->warn("Comparison ended: {}", same.error().message);
+            log.warn("Comparison ended: {}", same.error().message);
             return stopCompare(controller);
         }
         beginMeters(controller, now.a);
     }
     controller.other->settings = withSharedOf(std::move(controller.other->settings), now.settings);
     if (const auto applied = applyLiveSettings(b, controller.other->settings, now.pagingPaused); !applied)
-        log->error("B: {}", applied.error().message);
+        log.error("B: {}", applied.error().message);
     if (now.goesOn) {
         stepScene(b, now.lodView, controller.other->settings);
         keepPops(now.a, now, controller.meters[0].pops);
@@ -296,7 +296,7 @@ void stepCompared(CompareController& controller, const CompareFrame& now, const 
         b.drawCpuMs = 0;
         b.drawn = {};
     }
-    for (const std::string& problem : takeProblems(b)) log->error("B: {}", problem);
+    for (const std::string& problem : takeProblems(b)) log.error("B: {}", problem);
     advanceErrorMeter(*now.a.planet, now.frame, controller.meters[0].errors);
     advanceErrorMeter(*b.planet, now.frame, controller.meters[1].errors);
 }
@@ -312,7 +312,7 @@ void drawCompared(CompareController& controller, Viewport& viewport, const ViewS
     const planet::gl::RenderTarget& a = *viewport.main.target;
     if (const Result<void> ready = prepareMixing(controller, a); !ready) {
         controller.problem = ready.error().message;
-        log->error("{}", controller.problem);
+        log.error("{}", controller.problem);
         return stopCompare(controller);
     }
     const GLuint pictureA = a.colourTexture();
@@ -386,7 +386,7 @@ void restoreResults(ComparedFlight& flight, const KeptResults& kept, const Log& 
     if (const std::string changed = changedSince(kept.flight->files); !changed.empty()) {
         flight.problem =
             fmt::format("{}; the comparison over a flight of the last session is not shown", changed);
-        return log->warn("{}", flight.problem);
+        return log.warn("{}", flight.problem);
     }
     flight.last = kept.flight->figures;
     flight.name = kept.flight->name;

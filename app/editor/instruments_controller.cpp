@@ -105,8 +105,8 @@ void watchCosts(const DrawnFrame& drawn, const CostInstrument& costs, const Log&
     const planet::gl::RenderCounters& counters = scene.drawn;
     const double gpuMs = counters.chunksMs + counters.skyMs + counters.shadowsMs;
     if (watchPicture(scene.turnedDown, drawn.settings.view.surface, gpuMs, drawn.timeS))
-        log->info("A frame took {:.0f} ms on the GPU; a feature was turned off. The Light panel shows which.",
-                  gpuMs);
+        log.info("A frame took {:.0f} ms on the GPU; a feature was turned off. The Light panel shows which.",
+                 gpuMs);
 }
 
 }  // namespace

@@ -161,14 +161,13 @@ void stopRecording(RecordingController& controller, planet::Planet* planet, cons
     controller.savedFile = file ? *file : fs::path();
     controller.saveProblem = file ? "" : file.error().message;
     if (file && recorder.name() != name)
-        log->warn("A recorded flight \"{}\" now exists; this one is saved as \"{}\"", name, recorder.name());
+        log.warn("A recorded flight \"{}\" now exists; this one is saved as \"{}\"", name, recorder.name());
     if (file)
-        log->info("Recorded {}: {} frames over {:.1f} s", file->string(), encoded.frames(),
-                  encoded.seconds());
+        log.info("Recorded {}: {} frames over {:.1f} s", file->string(), encoded.frames(), encoded.seconds());
     else if (encoded.frames() > 0)
-        log->error("{}; the recording is kept: free disk space and stop it again", file.error().message);
+        log.error("{}; the recording is kept: free disk space and stop it again", file.error().message);
     else
-        log->error("{}", file.error().message);
+        log.error("{}", file.error().message);
     if (file || encoded.frames() == 0) controller.unwritten.reset();
     listRecordings(controller);
 }
@@ -341,7 +340,7 @@ struct RecordingHandler {
         if (!scene || !context.camera.rig) return;
         endReplay(controller, scene, context);
         if (succeeded(notices, startRecording(controller, *scene->planet, command.name), "Recording failed"))
-            notices.log->info("Recording {}: starting with the six root chunks", controller.recorder->name());
+            notices.log.info("Recording {}: starting with the six root chunks", controller.recorder->name());
         forgetChanges(context);
         context.frames.stepOnce = true;  // there is no selection now
     }
@@ -462,11 +461,11 @@ void replayFrame(RecordingController& controller, Scene& scene, const ReplayCont
 void giveSettings(RecordingController& controller, Scene& scene, const ViewSettings& settings,
                   bool pagingPaused, const Log& log) {
     const auto applied = applyLiveSettings(scene, settings, pagingPaused);
-    if (!applied) log->error("{}", applied.error().message);
+    if (!applied) log.error("{}", applied.error().message);
     if (!controller.recorder) return;
     if (applied) return controller.recorder->givenSettings(*scene.planet, settings, pagingPaused);
     // A replay could not reproduce which of the settings the planet has kept.
-    log->warn("Recording stopped: settings were refused");
+    log.warn("Recording stopped: settings were refused");
     stopRecording(controller, scene.planet.get(), log);
 }
 
@@ -475,8 +474,8 @@ bool recordFrame(RecordingController& controller, planet::Planet& planet, const 
     constexpr std::array<double, 2> priorityFactors = {1, observerPriorityFactor};
     controller.recorder->stepped(planet, priorityFactors);
     if (!controller.recorder->encoded().full()) return false;
-    log->warn("Recording stopped: the limit of {} frames or {} MiB is reached", maxFlightFrames,
-              maxFlightBytes >> 20);
+    log.warn("Recording stopped: the limit of {} frames or {} MiB is reached", maxFlightFrames,
+             maxFlightBytes >> 20);
     stopRecording(controller, &planet, log);
     return true;
 }

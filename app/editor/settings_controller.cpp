@@ -114,7 +114,7 @@ void load(SettingsController& controller, const fs::path& file, Notices& notices
     controller.regions.question.clear();
     replaceView(controller, std::move(view), "regions of " + file.filename().string());
     confirm(notices, fmt::format("Regions of {} loaded", file.string()));
-    if (areLost) notices.log->warn("The regions before were not saved; Undo brings them back");
+    if (areLost) notices.log.warn("The regions before were not saved; Undo brings them back");
 }
 
 // Reads the regions beside a planet. Those of an earlier session in which their file could not be read are in a second one.
@@ -122,10 +122,9 @@ RegionSettings regionsBeside(RegionFiles& files, Notices& notices) {
     const fs::path second = secondRegionsFile(files.beside);
     planet::Result<RegionSettings> loaded = readRegions(files, files.beside);
     if (loaded) {
-        if (loaded->list) notices.log->info("Regions of {} loaded", files.beside.string());
+        if (loaded->list) notices.log.info("Regions of {} loaded", files.beside.string());
         if (!second.empty())
-            notices.log->warn("Regions of an earlier session are in {}; open it to use them",
-                              second.string());
+            notices.log.warn("Regions of an earlier session are in {}; open it to use them", second.string());
         return *loaded;
     }
     planet::Result<RegionSettings> earlier{RegionSettings{}};
@@ -153,9 +152,8 @@ void followRegions(SettingsController& controller, const DataSet& data, Notices&
     if (!files.planet.empty() && !areSaved(files, files.shown)) {
         files.shown.file = fileOf(files, files.shown).string();
         files.unsaved[files.planet] = files.shown;
-        notices.log->warn(
-            "The regions in {} were not saved; they come back when their planet is opened again",
-            files.shown.file);
+        notices.log.warn("The regions in {} were not saved; they come back when their planet is opened again",
+                         files.shown.file);
     }
     files.planet = data.source;
     files.question.clear();

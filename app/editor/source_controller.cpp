@@ -85,7 +85,7 @@ void readSource(SourceController& sources, const Settings& settings, const Log& 
             sources.reader.layers = **result;
         } else {
             sources.reader.problem = result->error().message;
-            log->error("{}", sources.reader.problem);
+            log.error("{}", sources.reader.problem);
         }
     }
     const OverlaySettings& overlay = settings.view.overlay;
@@ -102,7 +102,7 @@ void readDepths(SourceController& sources, const planet::Planet& planet, const O
         if (!result) return;
         sources.depths.job.reset();
         // Without the index, only leaves have a tint.
-        if (!*result) log->error("{}", result->error().message);
+        if (!*result) log.error("{}", result->error().message);
         sources.depths.depths = *result ? **std::move(result) : LeafDepths{};
     }
     if (sources.depths.depths ||

@@ -69,7 +69,7 @@ void startSuggest(SuggestController& controller, const ui::StartSuggest& start, 
     request.view = context.settings.settings.view;
     request.size = start.size;
     controller.request = request;
-    notices.log->info("Searching settings for {}", budgetText(request.budget));
+    notices.log.info("Searching settings for {}", budgetText(request.budget));
     controller.job = std::make_unique<SuggestJob>(std::move(request));
 }
 
@@ -144,12 +144,12 @@ void advanceSuggest(SuggestController& controller, const Log& log) {
     controller.job.reset();
     if (*result) {
         controller.outcome = std::move(**result);
-        log->info("{}", verdictText(*controller.outcome));
+        log.info("{}", verdictText(*controller.outcome));
         return;
     }
     controller.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
     controller.problem = controller.cancelled ? "The search was cancelled." : result->error().message;
-    log->log(controller.cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
+    log.write(controller.cancelled ? LogLevel::Warning : LogLevel::Error, controller.problem);
 }
 
 ViewSettings settingsToApply(const ViewSettings& now, const SuggestOutcome& outcome) {

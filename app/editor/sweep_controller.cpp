@@ -124,7 +124,7 @@ void startSweep(SweepController& controller, const OpenPlanet* open, const Sweep
         path ? sweepPlanOf(*open, request, settings) : Result<SweepPlan>(tl::unexpected(path.error()));
     if (!plan) {
         controller.problem = plan.error().message;
-        log->error("{}", controller.problem);
+        log.error("{}", controller.problem);
         return;
     }
     controller.suggesting = request.goal.has_value();
@@ -140,7 +140,7 @@ void startSweep(SweepController& controller, const OpenPlanet* open, const Sweep
         controller.swept = {plan->source, plan->files};
         controller.sourceSettings = plan->sourceSettings;
     }
-    log->info("{} over {}", controller.suggesting ? "Searching for a tolerance" : "Sweeping", path->name);
+    log.info("{} over {}", controller.suggesting ? "Searching for a tolerance" : "Sweeping", path->name);
     controller.job = std::make_unique<SweepJob>(std::move(*plan));
 }
 
@@ -159,14 +159,14 @@ void advanceSweep(SweepController& controller, const Log& log) {
         controller.measured = measuredFilesOf(controller.swept.files);
     }
     if (*result) {
-        log->info("{}", controller.suggesting
-                            ? std::string("Found a tolerance")
-                            : fmt::format("Measured {} settings", controller.table->points.size()));
+        log.info("{}", controller.suggesting
+                           ? std::string("Found a tolerance")
+                           : fmt::format("Measured {} settings", controller.table->points.size()));
         return;
     }
     controller.problem = messageOf(result->error(), controller);
     controller.cancelled = result->error().kind == planet::ErrorKind::Cancelled;
-    log->log(controller.cancelled ? spdlog::level::warn : spdlog::level::err, "{}", controller.problem);
+    log.write(controller.cancelled ? LogLevel::Warning : LogLevel::Error, controller.problem);
 }
 
 Result<fs::path> saveSweep(const SweepController& controller, SweepCost cost, const fs::path& folder) {
@@ -215,7 +215,7 @@ void keepResults(const SweepController& controller, KeptResults& kept) {
 void restoreResults(SweepController& controller, const KeptResults& kept, const Log& log) {
     const auto leaveOut = [&](const std::string& changed, const char* what) {
         controller.problem = fmt::format("{}; the {} of the last session is not shown", changed, what);
-        log->warn("{}", controller.problem);
+        log.warn("{}", controller.problem);
     };
     if (kept.sweep) {
         const KeptSweep& sweep = *kept.sweep;

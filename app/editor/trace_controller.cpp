@@ -109,7 +109,7 @@ void followLink(TraceController& controller, const Log& log) {
     if (!controller.link) return;
     const std::string before = controller.status.message;
     controller.status = controller.link->status();
-    if (controller.status.message != before) log->info("{}", controller.status.message);
+    if (controller.status.message != before) log.info("{}", controller.status.message);
     using enum planet::TraceLinkState;
     const bool isComing = controller.status.state == Receiving || controller.status.state == Silent;
     const fs::path& file = controller.status.file.path;
@@ -216,7 +216,7 @@ void advanceTrace(TraceController& controller, double secondsSinceLast, const Lo
     const std::string problem = controller.document->problem();
     if (problem == controller.reported) return;
     controller.reported = problem;
-    if (!problem.empty()) log->warn("{}", problem);
+    if (!problem.empty()) log.warn("{}", problem);
 }
 
 void execute(TraceController& controller, const ui::TraceCommand& command, Workspace& workspace,

@@ -10,7 +10,7 @@ void startTraceWhatIf(TraceWhatIfRun& run, const std::filesystem::path& file,
                       const TraceWhatIfRequest& request, const Log& log) {
     if (file.empty() || run.job) return;
     run.problem.clear();
-    log->info("Selecting again over {}", file.filename().string());
+    log.info("Selecting again over {}", file.filename().string());
     run.job = std::make_unique<TraceWhatIfJob>(file, request);
 }
 
@@ -25,13 +25,13 @@ void advanceTraceWhatIf(TraceWhatIfRun& run, const Log& log) {
     run.job.reset();
     if (*result) {
         run.result = **std::move(result);
-        log->info("Selected again over {} frames", run.result->report.frames);
+        log.info("Selected again over {} frames", run.result->report.frames);
         return;
     }
     const planet::Error& error = result->error();
     const bool isCancelled = error.kind == planet::ErrorKind::Cancelled;
     run.problem = isCancelled ? "The selection was cancelled." : error.message;
-    log->log(isCancelled ? spdlog::level::warn : spdlog::level::err, "{}", run.problem);
+    log.write(isCancelled ? LogLevel::Warning : LogLevel::Error, run.problem);
 }
 
 ui::TraceWhatIfView traceWhatIfViewOf(const TraceWhatIfRun& run) {

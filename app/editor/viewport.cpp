@@ -15,7 +15,7 @@ bool fitTarget(PlanetPicture& picture, const planet::View& view, const Log& log)
     planet::Result<planet::gl::RenderTarget> made =
         planet::gl::RenderTarget::create(view.widthPx, view.heightPx);
     if (!made) {
-        log->error("{}", made.error().message);
+        log.error("{}", made.error().message);
         return false;
     }
     picture.target.emplace(std::move(*made));
@@ -30,7 +30,7 @@ planet::gl::DebugLines* linesOf(Viewport& viewport, const Log& log) {
         viewport.lines.emplace(std::move(*lines));
         return &*viewport.lines;
     }
-    log->error("{}", lines.error().message);
+    log.error("{}", lines.error().message);
     viewport.linesFailed = true;
     return nullptr;
 }

@@ -41,7 +41,7 @@ void copyCommandLine(const Window& window, const WindowContent& content, Notices
     if (!shownScene(content.session) || !content.camera.rig) return;
     const std::string line = lineOf(content);
     window.setClipboard(line);
-    notices.log->info("Copied: {}", line);
+    notices.log.info("Copied: {}", line);
     show(notices, "Command line copied");
 }
 
@@ -141,7 +141,7 @@ void readKeys(WindowController& controller, Notices& notices) {
     controller.keys = ui::actionKeys(file.keys);
     ui::publishKeyNames(controller.keys);
     if (file.problems.empty()) return;
-    for (std::size_t i = 1; i < file.problems.size(); ++i) notices.log->error("{}", file.problems[i]);
+    for (std::size_t i = 1; i < file.problems.size(); ++i) notices.log.error("{}", file.problems[i]);
     tellError(notices, {"Keys of the key file are not used", problemText(file.problems),
                         "The commands of these lines have their default keys. Fix the file and choose Help > "
                         "Reload keys."});

@@ -40,7 +40,7 @@ void showBriefly(Notices& notices, const std::string& text) {
 }
 
 void confirm(Notices& notices, const std::string& text) {
-    notices.log->info("{}", text);
+    notices.log.info("{}", text);
     show(notices, text);
 }
 
@@ -57,7 +57,7 @@ void showError(Notices& notices, ui::Message message) {
 }
 
 void tellError(Notices& notices, ui::Message message) {
-    notices.log->error("{}", message.text);
+    notices.log.error("{}", message.text);
     showError(notices, std::move(message));
 }
 
@@ -101,7 +101,7 @@ void tellCannotOpen(Notices& notices, const std::filesystem::path& file, const p
 }
 
 bool mayChange(const char* what, bool replaying, const Log& log) {
-    if (replaying) log->warn("{} cannot be changed during a replay", what);
+    if (replaying) log.warn("{} cannot be changed during a replay", what);
     return !replaying;
 }
 

@@ -62,12 +62,11 @@ Result<OpenPlanet> openPlanet(Session& session, const DataSet& data, const ViewS
     if (!scene) return tl::unexpected(scene.error());
     OpenPlanet open = openedAs(data, std::move(*scene));
     const planet::ChunkFile& file = open.scene.planet->file();
-    log->info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
-              bytesText(static_cast<double>(file.sizeBytes())),
-              planet::deepestLevelOf(file.info().shape) + 1);
-    log->debug("Depth buffer: {}", open.scene.renderer.chunks().capabilities().reversedZ
-                                       ? "float, reversed Z"
-                                       : "non-reversed, near plane follows the ground");
+    log.info("Open: {}, {} on disk, {} levels", data.chunkFile.string(),
+             bytesText(static_cast<double>(file.sizeBytes())), planet::deepestLevelOf(file.info().shape) + 1);
+    log.debug("Depth buffer: {}", open.scene.renderer.chunks().capabilities().reversedZ
+                                      ? "float, reversed Z"
+                                      : "non-reversed, near plane follows the ground");
     return open;
 }
 
@@ -82,7 +81,7 @@ void show(Session& session, OpenPlanet&& open, bool keepOld) {
 }
 
 void fail(Session& session, const planet::Error& error, const Log& log) {
-    log->error("{}", error.message);
+    log.error("{}", error.message);
     session.problem = error;
 }
 
@@ -90,7 +89,7 @@ void fail(Session& session, const planet::Error& error, const Log& log) {
 void retireBake(Session& session, const Log& log) {
     if (!session.bake) return;
     if (!session.bake->stopping())
-        log->warn("The bake of {} was cancelled", session.bake->data.source.string());
+        log.warn("The bake of {} was cancelled", session.bake->data.source.string());
     if (session.bake->job) {
         session.bake->job->cancel();
         session.ending.push_back(std::move(session.bake->job));
@@ -99,7 +98,7 @@ void retireBake(Session& session, const Log& log) {
 }
 
 void beginBake(Session& session, SessionBake&& bake, const Log& log) {
-    log->info("Baking {} into {}", bake.data.source.string(), bake.data.chunkFile.string());
+    log.info("Baking {} into {}", bake.data.source.string(), bake.data.chunkFile.string());
     session.bakeProblem.reset();
     session.bake.emplace(std::move(bake));
 }
@@ -148,10 +147,10 @@ void showFirstLook(Session& session, const ViewSettings& settings, const Log& lo
     const DataSet look = *std::exchange(bake.firstLook, std::nullopt);
     Result<OpenPlanet> open = openPlanet(session, look, settings, log);
     if (!open) {
-        log->warn("{}; waiting for the whole bake", open.error().message);
+        log.warn("{}; waiting for the whole bake", open.error().message);
         return;
     }
-    log->info("This is a coarse first look. The whole bake takes its place when it is done.");
+    log.info("This is a coarse first look. The whole bake takes its place when it is done.");
     open->layers = bake.job->layers();
     open->isFirstLook = true;
     show(session, std::move(*open), false);
@@ -161,8 +160,8 @@ void showFirstLook(Session& session, const ViewSettings& settings, const Log& lo
 
 void failBake(Session& session, const SessionBake& bake, const planet::Error& error, const Log& log) {
     const bool cancelled = error.kind == planet::ErrorKind::Cancelled;
-    log->log(cancelled ? spdlog::level::warn : spdlog::level::err, "{}",
-             cancelled ? "The bake was cancelled" : error.message);
+    log.write(cancelled ? LogLevel::Warning : LogLevel::Error,
+              cancelled ? "The bake was cancelled" : error.message);
     session.bakeProblem = error;
     if (bake.needed) session.problem = error;
 }
@@ -175,16 +174,16 @@ void finishBake(Session& session, const ViewSettings& settings, const Log& log) 
     session.bake.reset();
     if (!*result) return failBake(session, bake, result->error(), log);
     const planet::BakeReport& report = **result;
-    log->info("Baked: {} samples in {}, {}", countText(static_cast<double>(report.samples)),
-              durationText(report.seconds), bytesText(static_cast<double>(report.fileBytes)));
-    if (report.copiedChunks > 0) log->info("{} from an earlier bake", copiedText(report));
+    log.info("Baked: {} samples in {}, {}", countText(static_cast<double>(report.samples)),
+             durationText(report.seconds), bytesText(static_cast<double>(report.fileBytes)));
+    if (report.copiedChunks > 0) log.info("{} from an earlier bake", copiedText(report));
     if (!report.reuseNotice.empty())
-        log->log(report.reuseIsDamaged ? spdlog::level::warn : spdlog::level::debug, "{}", reuseText(report));
+        log.write(report.reuseIsDamaged ? LogLevel::Warning : LogLevel::Debug, reuseText(report));
     session.bakeReport = report;
     const std::string colourProblem = bake.job->colourProblem();
-    if (!colourProblem.empty()) log->warn("{}; baked without colours", colourProblem);
-    if (!report.colourNotice.empty()) log->warn("{}", report.colourNotice);
-    if (!report.quantumNotice.empty()) log->warn("{}", report.quantumNotice);
+    if (!colourProblem.empty()) log.warn("{}; baked without colours", colourProblem);
+    if (!report.colourNotice.empty()) log.warn("{}", report.colourNotice);
+    if (!report.quantumNotice.empty()) log.warn("{}", report.quantumNotice);
     bake.data.needsBake = false;
     Result<OpenPlanet> open = openPlanet(session, bake.data, settings, log);
     if (!open) return failBake(session, bake, open.error(), log);
@@ -203,7 +202,7 @@ void finishBake(Session& session, const ViewSettings& settings, const Log& log) 
 
 void tellProblems(std::optional<OpenPlanet>& open, const Log& log) {
     if (!open) return;
-    for (const std::string& problem : takeProblems(open->scene)) log->error("{}", problem);
+    for (const std::string& problem : takeProblems(open->scene)) log.error("{}", problem);
 }
 
 fs::file_time_type newestIn(const fs::path& folder) {
@@ -304,12 +303,12 @@ bool openFile(Session& session, const fs::path& file, const ViewSettings& settin
 
 void startBake(Session& session, const BakeRequest& request, const Log& log) {
     if (session.bake && !session.bake->stopping()) {
-        log->warn("A bake is already running; cancel it or wait until it ends");
+        log.warn("A bake is already running; cancel it or wait until it ends");
         return;
     }
     const Result<DataSet> found = dataSetOf(request);
     if (!found) {
-        log->error("{}", found.error().message);
+        log.error("{}", found.error().message);
         session.bakeProblem = found.error();
         return;
     }
@@ -338,7 +337,7 @@ void startBake(Session& session, const Log& log) {
 void openBake(Session& session, const BakeRequest& request, const fs::path& chunkFile,
               const ViewSettings& settings, const Log& log) {
     if (session.bake && !session.bake->stopping()) {
-        log->warn("A bake is running; cancel it or wait until it ends");
+        log.warn("A bake is running; cancel it or wait until it ends");
         return;
     }
     DataSet data = session.data;
@@ -350,7 +349,7 @@ void openBake(Session& session, const BakeRequest& request, const fs::path& chun
     Result<OpenPlanet> open = openPlanet(session, data, settings, log);
     if (!open && planet::heightSourceExists(request.source)) return startBake(session, request, log);
     if (!open) {
-        log->error("{}", open.error().message);
+        log.error("{}", open.error().message);
         session.bakeProblem = open.error();
         return;
     }
@@ -489,7 +488,7 @@ Result<void> reloadChangedShaders(Session& session, const Log& log) {
     if (!shadersHaveChanged(session)) return {};
     session.shaders.changed = newestIn(session.shaders.folder);
     Result<void> reloaded = session.open->scene.renderer.chunks().reloadShaders();
-    if (reloaded) log->info("Shaders of {} reloaded", session.shaders.folder.string());
+    if (reloaded) log.info("Shaders of {} reloaded", session.shaders.folder.string());
     return reloaded;
 }
 

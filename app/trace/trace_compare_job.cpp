@@ -94,7 +94,7 @@ void startTraceCompare(TraceCompareRun& run, const TraceCompareRequest& request,
     run.request = request;
     run.problem.clear();
     run.isCancelled = false;
-    log->info("Comparing {} with {}", request.fileA.filename().string(), request.fileB.filename().string());
+    log.info("Comparing {} with {}", request.fileA.filename().string(), request.fileB.filename().string());
     run.job = std::make_unique<TraceCompareJob>(request);
 }
 
@@ -106,14 +106,13 @@ void advanceTraceCompare(TraceCompareRun& run, const Log& log) {
     if (*result) {
         run.result = **std::move(result);
         run.problem = whyNothingCompared(*run.result);
-        log->info("Compared {} frames, {} differ", run.result->found.frames,
-                  run.result->found.framesThatDiffer);
+        log.info("Compared {} frames, {} differ", run.result->found.frames,
+                 run.result->found.framesThatDiffer);
     } else {
         run.isCancelled = result->error().kind == planet::ErrorKind::Cancelled;
         run.problem = run.isCancelled ? "The comparison was cancelled." : result->error().message;
     }
-    if (!run.problem.empty())
-        log->log(run.isCancelled ? spdlog::level::warn : spdlog::level::err, "{}", run.problem);
+    if (!run.problem.empty()) log.write(run.isCancelled ? LogLevel::Warning : LogLevel::Error, run.problem);
 }
 
 }  // namespace worldy

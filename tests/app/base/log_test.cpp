@@ -9,9 +9,9 @@ namespace {
 
 TEST(Log, LinesKeepTheirLevelAndOrder) {
     Log log;
-    log->debug("one");
-    log->warn("two {}", 2);
-    log->error("three");
+    log.debug("one");
+    log.warn("two {}", 2);
+    log.error("three");
     std::deque<LogLine> lines;
     log.moveNewLines(lines);
     ASSERT_EQ(lines.size(), 3u);
@@ -28,7 +28,7 @@ TEST(Log, ForgetsTheOldestLines) {
     Log log;
     std::deque<LogLine> lines;
     for (std::size_t i = 0; i < 3 * Log::keptLines; ++i) {
-        log->debug("{}", i);
+        log.debug("{}", i);
         if (i == Log::keptLines / 2) log.moveNewLines(lines);
     }
     log.moveNewLines(lines);
@@ -40,11 +40,11 @@ TEST(Log, ForgetsTheOldestLines) {
 TEST(Log, TakesLinesFromSeveralThreads) {
     Log log;
     std::thread other([&] {
-        for (int i = 0; i < 500; ++i) log->debug("other");
+        for (int i = 0; i < 500; ++i) log.debug("other");
     });
     std::deque<LogLine> lines;
     for (int i = 0; i < 500; ++i) {
-        log->debug("own");
+        log.debug("own");
         log.moveNewLines(lines);
     }
     other.join();

@@ -92,13 +92,13 @@ protected:
 };
 
 TEST_F(Alerts, showWarningsAndErrorsThatNobodyTold) {
-    log_->info("a planet is open");
-    log_->warn("colours are unreadable");
-    log_->error("no disk");
+    log_.info("a planet is open");
+    log_.warn("colours are unreadable");
+    log_.error("no disk");
     EXPECT_THAT(alerts(), ElementsAre("colours are unreadable", "no disk"));
     EXPECT_EQ(notices_.alerts[0].level, LogLevel::Warning);
     EXPECT_EQ(notices_.alerts[1].level, LogLevel::Error);
-    log_->info("an hour later");
+    log_.info("an hour later");
     EXPECT_EQ(alerts().size(), 2u) << "old lines are shown again";
 }
 
@@ -106,18 +106,18 @@ TEST_F(Alerts, doNotRepeatAMessageBox) {
     tellError(notices_, {"The first failed", "no disk", ""});
     EXPECT_THAT(alerts(), IsEmpty());
     workspace_.panels[static_cast<std::size_t>(PanelId::Sweep)].shown = false;
-    log_->error("no chunk");
+    log_.error("no chunk");
     tellOnce(notices_, workspace_, PanelId::Sweep, "The sweep has no result", "no chunk");
     EXPECT_THAT(alerts(), IsEmpty());
 }
 
 TEST_F(Alerts, aRepeatedProblemIsCountedAndStaysLonger) {
-    log_->warn("Settings cannot be changed during a replay");
+    log_.warn("Settings cannot be changed during a replay");
     alerts();
     const double firstUntilS = notices_.alerts[0].untilS;
     notices_.timeS += 3;
-    log_->warn("Settings cannot be changed during a replay");
-    log_->warn("Settings cannot be changed during a replay");
+    log_.warn("Settings cannot be changed during a replay");
+    log_.warn("Settings cannot be changed during a replay");
     EXPECT_EQ(alerts().size(), 1u);
     EXPECT_EQ(notices_.alerts[0].count, 3);
     EXPECT_DOUBLE_EQ(notices_.alerts[0].untilS, firstUntilS + 3);
