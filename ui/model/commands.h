@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -459,45 +460,31 @@ struct FindFeature<Kind, std::variant<>> {};
 template <class Kind>
 using FeatureOf = typename FindFeature<Kind, FeatureCommand>::type;
 
-// A command of any feature. Its move and destructor are in commands.cpp, so that a file that sends commands
-// compiles only the variants of the features that it uses.
+// A command of any feature. It is made and destroyed in commands.cpp, because the variants take long to compile: a file
+// that sends commands compiles only those of the features that it uses.
 class Command {
 public:
     template <class Kind, class Feature = FeatureOf<Kind>>
-    Command(Kind command) : Command(Feature(std::move(command))) {}
-    Command(ChunkCommand command);
-    Command(CameraCommand command);
-    Command(PagingCommand command);
-    Command(FrameCommand command);
-    Command(FileCommand command);
-    Command(BakeCommand command);
-    Command(SettingsCommand command);
-    Command(WindowCommand command);
-    Command(LayerCommand command);
-    Command(InstrumentCommand command);
-    Command(RecordingCommand command);
-    Command(SweepCommand command);
-    Command(CompareCommand command);
-    Command(SourceCommand command);
-    Command(TraceCommand command);
-    Command(AtlasCommand command);
-    Command(SuggestCommand command);
-    Command(NoteCommand command);
+    Command(Kind command) : Command(std::in_place, Feature(std::in_place_type<Kind>, std::move(command))) {}
     Command(Command&&) noexcept;
     Command& operator=(Command&&) noexcept;
     ~Command();
 
-    const FeatureCommand& feature() const { return feature_; }
+    const FeatureCommand& feature() const;
 
     // Returns null if the command is of another kind.
     template <class Kind>
     const Kind* as() const {
-        const auto* feature = std::get_if<FeatureOf<Kind>>(&feature_);
-        return feature ? std::get_if<Kind>(feature) : nullptr;
+        const auto* of = std::get_if<FeatureOf<Kind>>(&feature());
+        return of ? std::get_if<Kind>(of) : nullptr;
     }
 
 private:
-    FeatureCommand feature_;
+    // Instantiated for each feature in commands.cpp.
+    template <class Feature>
+    Command(std::in_place_t, Feature feature);
+
+    std::unique_ptr<const FeatureCommand> feature_;
 };
 using Commands = std::vector<Command>;
 
