@@ -10,10 +10,12 @@
 #include <variant>
 #include <vector>
 
-#include "app/base/toml_file.h"
 #include "app/settings/settings.h"
+#include "planet/base/number_range.h"
 
 namespace worldy {
+
+using planet::NumberRange;
 
 enum class SliderScale : std::uint8_t { Linear, Logarithmic };
 

@@ -39,11 +39,6 @@ std::size_t lineOfEndlessKey(std::string_view text) {
 
 }  // namespace
 
-std::string textOf(const NumberRange& range) {
-    const std::string_view gap = range.unit.empty() || range.unit == "°" ? "" : " ";
-    return fmt::format("[{}, {}]{}{}", range.min, range.max, gap, range.unit);
-}
-
 std::string shownValue(const toml::node& node) {
     std::ostringstream text;
     node.visit([&](const auto& value) { text << value; });

@@ -8,17 +8,12 @@
 #include <string>
 #include <string_view>
 
+#include "planet/base/number_range.h"
 #include "planet/base/result.h"
 
 namespace planet {
 
 inline constexpr std::uintmax_t mostTomlBytes = 16u << 20;  // of a file
-
-struct NumberRange {
-    double min = 0;
-    double max = 0;
-    std::string_view unit;  // "px"; may be empty
-};
 
 // Reads a file of at most mostTomlBytes.
 Result<toml::table> parseTomlFile(const std::filesystem::path& path);
@@ -30,9 +25,6 @@ std::string shownValue(const toml::node& node);
 
 // Returns "settings.toml: line 3", without the line if the node was not parsed from text.
 std::string placeOf(const std::filesystem::path& file, const toml::node& node);
-
-// Returns "[0.1, 64] px".
-std::string textOf(const NumberRange& range);
 
 // Reads a finite number in the range; integers are numbers too.
 Result<double> readNumber(const std::filesystem::path& file, std::string_view name, const toml::node& node,
