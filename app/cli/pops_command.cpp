@@ -27,8 +27,8 @@ using planet::percentileOf;
 using planet::PopEvent;
 using planet::Result;
 
-constexpr std::array shares = {0.5, 0.9, 0.99, 1.0};
-constexpr std::array<const char*, shares.size()> shareNames = {"p50", "p90", "p99", "maximum"};
+constexpr std::array reportedShares = {0.5, 0.9, 0.99, 1.0};
+constexpr std::array<const char*, reportedShares.size()> shareNames = {"p50", "p90", "p99", "maximum"};
 
 // Returns all level changes, worst first; those that do not count come last.
 std::vector<const PopEvent*> rankedEvents(const PopsFlight& flown) {
@@ -75,8 +75,8 @@ Json jsonOf(const PopsOptions& options, const FlightPath& path, double stepS, co
                    {"worst_beside_px", flown.totals.worstBesidePx},
                    {"measuring_us_per_switch", flown.usPerSwitch}};
     std::vector<double> jumps = jumpsOf(flown);
-    for (std::size_t i = 0; i < shares.size(); ++i)
-        report["largest_px_by_percentile"][shareNames[i]] = percentileOf(jumps, shares[i]);
+    for (std::size_t i = 0; i < reportedShares.size(); ++i)
+        report["largest_px_by_percentile"][shareNames[i]] = percentileOf(jumps, reportedShares[i]);
     for (std::size_t i = 0; i < planet::popCauseCount; ++i)
         report["causes"][planet::popCauseName(static_cast<planet::PopCause>(i))] = flown.totals.byCause[i];
     report["events"] = Json::array();
