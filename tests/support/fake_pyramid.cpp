@@ -10,13 +10,14 @@
 
 namespace planet {
 
+namespace {
+
+// Plains and mountains: heights from about -2% to 4% of the radius.
 double fakeHeightM(const PlanetShape& shape, const glm::dvec3& d) {
     const double wide = std::sin(3 * d.x + 1) * std::cos(4 * d.y - 2 * d.z);
     const double rough = std::max(0.0, wide) * std::sin(37 * d.x + 11 * d.z) * std::sin(41 * d.y - 5 * d.x);
     return shape.radiusM * (0.015 * wide + 0.025 * rough);
 }
-
-namespace {
 
 // The (faceCells + 1)^2 finest samples of a face, and chunks cut from it.
 struct FaceGrid {

@@ -55,9 +55,6 @@ struct FakePyramid {
     }
 };
 
-// Plains and mountains: heights from about -2% to 4% of the radius.
-double fakeHeightM(const PlanetShape& shape, const glm::dvec3& d);
-
 // A planet of radius 100 km with 16 cells a chunk.
 FakePyramid makeFakePyramid(int leafLevelWanted);
 

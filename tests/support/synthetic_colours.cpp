@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "tests/support/tile_directions.h"
+
 namespace planet::test {
 
 ColourSource formulaColours(std::function<glm::dvec3(const glm::dvec3& direction)> colour,
@@ -15,13 +17,8 @@ ColourSource formulaColours(std::function<glm::dvec3(const glm::dvec3& direction
     source.sample = [colour = std::move(colour)](const SampleTile& tile,
                                                  std::span<glm::vec3> out) -> Result<void> {
         std::size_t at = 0;
-        for (int j = 0; j < tile.rows; ++j) {
-            for (int i = 0; i < tile.columns; ++i) {
-                const double u = 2.0 * (tile.firstColumn + i) / tile.faceCells - 1;
-                const double v = 2.0 * (tile.firstRow + j) / tile.faceCells - 1;
-                out[at++] = glm::vec3(colour(sphereFromCube(cubePoint(tile.face, u, v))));
-            }
-        }
+        forEachDirection(tile,
+                         [&](const glm::dvec3& direction) { out[at++] = glm::vec3(colour(direction)); });
         return {};
     };
     return source;

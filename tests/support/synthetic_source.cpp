@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "tests/support/tile_directions.h"
+
 namespace planet::test {
 
 HeightSource formulaSource(std::function<double(const glm::dvec3& direction)> height, double minM,
@@ -18,13 +20,8 @@ HeightSource formulaSource(std::function<double(const glm::dvec3& direction)> he
     source.sample = [height = std::move(height)](const SampleTile& tile,
                                                  std::span<float> out) -> Result<void> {
         std::size_t at = 0;
-        for (int j = 0; j < tile.rows; ++j) {
-            for (int i = 0; i < tile.columns; ++i) {
-                const double u = 2.0 * (tile.firstColumn + i) / tile.faceCells - 1;
-                const double v = 2.0 * (tile.firstRow + j) / tile.faceCells - 1;
-                out[at++] = static_cast<float>(height(sphereFromCube(cubePoint(tile.face, u, v))));
-            }
-        }
+        forEachDirection(
+            tile, [&](const glm::dvec3& direction) { out[at++] = static_cast<float>(height(direction)); });
         return {};
     };
     return source;
