@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/base/exit_code.h"
 #include "app/base/message.h"
 #include "app/base/process_memory.h"
 #include "app/base/report.h"
@@ -279,9 +280,11 @@ planet::Result<void> runBake(const BakeOptions& options) {
     if (isOneOfSeveralRanks() || options.resume) {
         const planet::Result<std::unique_ptr<planet::Ranks>> ranks = joinRanks();
         if (!ranks) return tl::unexpected(ranks.error());
-        const bool writesMessages = (*ranks)->rank() == 0;
         return bakeWithOthers(options, **ranks).map_error([&](planet::Error error) {
-            if (!writesMessages) error.message.clear();
+            // The first rank that exits with an error ends the others. None exits before rank 0 has written the
+            // message, because they wait for it in MPI_Finalize.
+            if ((*ranks)->rank() == 0) reportError(error);
+            error.message.clear();
             return error;
         });
     }

@@ -213,5 +213,19 @@ TEST(MpiBake, anErrorOfAllRanksIsWrittenOnce) {
     EXPECT_THAT(ran.errors, HasSubstr("nothing.tif: no such file"));
 }
 
+// Rank 0 writes its message into a full pipe, which is read two seconds later.
+TEST(MpiBake, anErrorIsWrittenBeforeAnyRankEnds) {
+    const TemporaryFolder folder;
+    constexpr int pipeBytes = 65536;
+    const std::string job = bake("nothing.tif -o a.chk");
+    const Ran ran =
+        runShell(folder, fmt::format("mkfifo pipe; (exec 3< pipe; sleep 2; cat <&3 > read) & {}"
+                                     "sh -c \"exec 2> pipe; head -c {} /dev/zero >&2; exec {}\" : -n 2 {}; "
+                                     "job=$?; wait; exit $job",
+                                     ranks(1), pipeBytes, job, job));
+    EXPECT_EQ(ran.exitCode, 2);
+    EXPECT_THAT(contentOf(folder / "read").substr(pipeBytes), HasSubstr("nothing.tif: no such file"));
+}
+
 }  // namespace
 }  // namespace worldy
