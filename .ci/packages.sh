@@ -53,13 +53,6 @@ clang-tidy-22           mistakes and needless includes, in a fourth of the time 
 qemu-user               a machine of the other byte order
 g++-s390x-linux-gnu     programs for it"
 
-# For the emulated machine of the other byte order.
-machine_packages="\
-libfmt-dev:s390x        messages
-libsquish-dev:s390x     colour tiles from BC1
-libxxhash-dev:s390x     checksums
-libzstd-dev:s390x       lossless colour tiles"
-
 # Cross-compile lod_trace.h for Windows.
 windows_packages="\
 gcc-mingw-w64-x86-64    C compiler for Windows
