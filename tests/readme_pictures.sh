@@ -20,7 +20,7 @@ mkdir -p "$out" "$work/config" "$work/cache" "$work/shots"
 export HOME=$work XDG_CONFIG_HOME=$work/config XDG_CACHE_HOME=$work/cache XDG_PICTURES_DIR=$work/shots
 cd "$work" || exit 2
 # The shell functions that the window tests use too: click, slide, shown, settled and the like.
-sed -n '/windowFunctions = R/,/)sh";/p' "$here/tests/program/editor_window.h" | sed '1d;$d' >functions.sh
+sed -n '/windowFunctions = R/,/)sh";/p' "$here/tests/program/window/editor_window.h" | sed '1d;$d' >functions.sh
 . ./functions.sh
 # A short path, because the pictures show it.
 cp -r "$here/data/earth" earth

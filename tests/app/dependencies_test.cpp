@@ -140,6 +140,7 @@ protected:
         write("planet/select/lod_select.h", "#include \"planet/base/result.h\"\n");
         write("ui/kit/theme.h", "#include \"planet/select/lod_select.h\"\n");
         write("app/main.cpp", "#include \"ui/kit/theme.h\"\n");
+        write("tests/ui/kit/theme_test.cpp", "#include \"ui/kit/theme.h\"\n");
     }
 
     tests::TemporaryFolder folder_;
@@ -168,10 +169,13 @@ TEST_F(Layers, aRingOfIncludesFails) {
 }
 
 TEST_F(Layers, aFolderOfMoreThan30SourcesFails) {
-    for (int i = 0; i < 30; ++i) write("planet/bake/source" + std::to_string(i) + ".cpp", "int x;\n");
-    EXPECT_EQ(status(), 0);
-    write("planet/bake/source30.cpp", "int x;\n");
-    EXPECT_EQ(status(), 1);
+    for (const std::string folder : {"planet/bake/", "tests/planet/bake/"}) {
+        for (int i = 0; i < 30; ++i) write(folder + "source" + std::to_string(i) + ".cpp", "int x;\n");
+        EXPECT_EQ(status(), 0) << folder;
+        write(folder + "source30.cpp", "int x;\n");
+        EXPECT_EQ(status(), 1) << folder;
+        std::filesystem::remove_all(folder_.path() / folder);
+    }
 }
 
 TEST_F(Layers, aFolderThatIsNotListedFails) {

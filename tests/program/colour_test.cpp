@@ -8,8 +8,8 @@
 
 #include "planet/format/chunk_file.h"
 #include "planet/format/chunk_file_format.h"
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 #include "tests/support/grey_faces.h"
 
 namespace worldy {

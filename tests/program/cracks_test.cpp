@@ -13,14 +13,14 @@ using testing::HasSubstr;
 
 // Hills so steep and chunks so coarse that there are cracks. Without morph, which closes those between levels
 // one apart.
-const std::string view =
+const std::string steepView =
     "--size 640x400 --tau 60 --set surface.exaggeration=20 --set lod.morph=false --camera 30,30,90000,0,-40 ";
 
 TEST(CracksCommand, SkirtsHoldWhatWithoutThemLeaks) {
     const TemporaryFolder folder;
     bakePlanet(folder);
     const Ran open =
-        runWorldy(folder, "cracks planet.chk " + view + "--seams none -o open.json --mark open.png");
+        runWorldy(folder, "cracks planet.chk " + steepView + "--seams none -o open.json --mark open.png");
     EXPECT_EQ(open.exitCode, 1) << open.errors;
     EXPECT_THAT(open.output, HasSubstr("uncovered px"));
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "open.png"));
@@ -33,7 +33,7 @@ TEST(CracksCommand, SkirtsHoldWhatWithoutThemLeaks) {
     EXPECT_TRUE(report["view"][0]["spots"][0].contains("finer"));
     EXPECT_GT(report["view"][0]["gaps"][0]["gap_m"].get<double>(), 0);
 
-    const Ran hidden = runWorldy(folder, "cracks planet.chk " + view + "--find-depth -o hidden.json");
+    const Ran hidden = runWorldy(folder, "cracks planet.chk " + steepView + "--find-depth -o hidden.json");
     EXPECT_EQ(hidden.exitCode, 0) << hidden.errors;
     EXPECT_THAT(hidden.output, HasSubstr("smallest depth: "));
     const auto found = nlohmann::json::parse(contentOf(folder.path() / "hidden.json"));
@@ -42,7 +42,8 @@ TEST(CracksCommand, SkirtsHoldWhatWithoutThemLeaks) {
     EXPECT_GT(found["smallest_depth_m"].get<double>(), 0);
     EXPECT_LE(found["smallest_factor"].get<double>(), 1);
 
-    const Ran stitched = runWorldy(folder, "cracks planet.chk " + view + "--seams stitched -o stitched.json");
+    const Ran stitched =
+        runWorldy(folder, "cracks planet.chk " + steepView + "--seams stitched -o stitched.json");
     EXPECT_EQ(stitched.exitCode, 0) << stitched.errors;
     EXPECT_EQ(nlohmann::json::parse(contentOf(folder.path() / "stitched.json"))["crack_px"], 0);
 }
@@ -50,7 +51,8 @@ TEST(CracksCommand, SkirtsHoldWhatWithoutThemLeaks) {
 TEST(CracksCommand, TheReportHoldsAllGapsAndTheTableTheWorst) {
     const TemporaryFolder folder;
     bakePlanet(folder);
-    const Ran ran = runWorldy(folder, "cracks planet.chk " + view + "--seams none -o all.json --worst 2");
+    const Ran ran =
+        runWorldy(folder, "cracks planet.chk " + steepView + "--seams none -o all.json --worst 2");
     const auto measured = nlohmann::json::parse(contentOf(folder.path() / "all.json"))["view"][0];
     EXPECT_GT(measured["gaps"].size(), 2u);
     EXPECT_GT(measured["spots"].size(), 2u);
@@ -85,7 +87,8 @@ TEST(CracksCommand, AViewOfAFlightIsTheSameAsAlone) {
 TEST(CracksCommand, PrintsTheReportAndNothingElseAsJson) {
     const TemporaryFolder folder;
     bakePlanet(folder);
-    const Ran ran = runWorldy(folder, "cracks planet.chk " + view + "--find-depth --json -o report.json");
+    const Ran ran =
+        runWorldy(folder, "cracks planet.chk " + steepView + "--find-depth --json -o report.json");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(ran.output, contentOf(folder.path() / "report.json"));
     const auto report = nlohmann::json::parse(ran.output);
@@ -112,7 +115,8 @@ TEST(CracksCommand, AFileWhoseNameIsNotUtf8IsReported) {
     const TemporaryFolder folder;
     bakePlanet(folder);
     std::filesystem::rename(folder.path() / "planet.chk", folder.path() / "pl\xE9net.chk");
-    const Ran ran = runWorldy(folder, "cracks pl\xE9net.chk " + view + "--seams stitched -o report.json");
+    const Ran ran =
+        runWorldy(folder, "cracks pl\xE9net.chk " + steepView + "--seams stitched -o report.json");
     EXPECT_EQ(ran.exitCode, 0) << ran.errors;
     EXPECT_EQ(nlohmann::json::parse(contentOf(folder.path() / "report.json"))["file"],
               "pl\xEF\xBF\xBDnet.chk");

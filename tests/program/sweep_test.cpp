@@ -39,14 +39,14 @@ TEST_F(SweepTest, WritesTheSamePointsAsTableAndAsJson) {
         folder, "sweep planet.chk --flight down.toml --tau 1,4 --step-s 4 --size 160x120 -o s.json --json");
     ASSERT_EQ(told.exitCode, 0) << told.errors;
     EXPECT_EQ(told.output, contentOf(folder.path() / "s.json"));
-    const auto json = nlohmann::json::parse(told.output);
-    EXPECT_EQ(json["frames"], 2);
-    ASSERT_EQ(json["points"].size(), 4u);
-    EXPECT_EQ(json["points"][0]["chunk_size"], 17);
-    EXPECT_GT(json["points"][0]["mean_drawn_chunks"], 0);
-    EXPECT_TRUE(json["points"][0]["most_resident_bytes"].is_number_integer());
-    EXPECT_GE(json["points"][0]["mean_triangles"], json["points"][1]["mean_triangles"]);
-    EXPECT_EQ(json["points"][0]["violations"], 0);
+    const auto report = nlohmann::json::parse(told.output);
+    EXPECT_EQ(report["frames"], 2);
+    ASSERT_EQ(report["points"].size(), 4u);
+    EXPECT_EQ(report["points"][0]["chunk_size"], 17);
+    EXPECT_GT(report["points"][0]["mean_drawn_chunks"], 0);
+    EXPECT_TRUE(report["points"][0]["most_resident_bytes"].is_number_integer());
+    EXPECT_GE(report["points"][0]["mean_triangles"], report["points"][1]["mean_triangles"]);
+    EXPECT_EQ(report["points"][0]["violations"], 0);
     EXPECT_GT(contentOf(folder.path() / "s.png").size(), 1000u);
 }
 

@@ -48,10 +48,10 @@ TEST_F(TerrainTest, ABakeCopiesFromAnEarlierOneAndSaysSo) {
     EXPECT_THAT(text.output, HasSubstr(" of 2046 chunks copied from a.chk"));
     EXPECT_EQ(contentOf(folder / "a.chk"), before);
     const Ran ran = runWorldy(folder, bake + "b.chk --reuse a.chk --json");
-    const auto json = nlohmann::json::parse(ran.output);
-    EXPECT_GT(json["copied_chunks"], 1900);
-    EXPECT_EQ(json["sampled_cells"], 0);
-    EXPECT_EQ(json["reuse"], "a.chk");
+    const auto report = nlohmann::json::parse(ran.output);
+    EXPECT_GT(report["copied_chunks"], 1900);
+    EXPECT_EQ(report["sampled_cells"], 0);
+    EXPECT_EQ(report["reuse"], "a.chk");
     const Ran other = runWorldy(folder, "bake noise:fbm,seed=5 --face-size 257 -o b.chk --reuse a.chk");
     EXPECT_EQ(other.exitCode, 0);
     EXPECT_THAT(other.errors, HasSubstr("a.chk: no chunk was copied from it, because its chunk size is 17"));
@@ -114,9 +114,9 @@ TEST_F(TerrainTest, ASweepBakesOtherChunkSizesOfWhatAChunkFileSaysItWasMadeFrom)
                   "sweep w.chk --flight down.toml --tau 4 --metric tight --chunk 17,33 --frames 1 "
                   "--size 160x120 --json");
     ASSERT_EQ(ran.exitCode, 0) << ran.errors;
-    const auto json = nlohmann::json::parse(ran.output);
-    ASSERT_EQ(json["points"].size(), 2u);
-    EXPECT_EQ(json["points"][1]["chunk_size"], 33);
+    const auto report = nlohmann::json::parse(ran.output);
+    ASSERT_EQ(report["points"].size(), 2u);
+    EXPECT_EQ(report["points"][1]["chunk_size"], 33);
 }
 
 TEST_F(TerrainTest, BadInputIsToldWithWhatWouldBeRight) {

@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "planet/trace/lod_trace.h"
 #include "planet/trace/trace_index.h"
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 #include "tests/support/small_trace.h"
 
 namespace worldy {

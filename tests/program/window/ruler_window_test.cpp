@@ -1,8 +1,8 @@
 // The ruler in the window: two clicks on the ground measure what lies between them.
 #include <gtest/gtest.h>
 
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {

@@ -1,8 +1,8 @@
 // Steering the window by a gamepad, by the wheel and by Alt, and gliding to places.
 #include <gtest/gtest.h>
 
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {

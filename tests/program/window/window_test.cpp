@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "app/base/picture_file.h"
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {

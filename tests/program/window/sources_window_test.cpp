@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/planet/source/raster_fixture.h"
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {
@@ -36,9 +36,9 @@ protected:
 TEST_F(SourcesProgram, ProbeSaysWhichSampleMadeTheHeight) {
     ASSERT_EQ(runWorldy(folder, "bake world.toml -o world.chk --face-size 257").exitCode, 0);
     // The sample of column 60 and row 40 lies 2 degrees east and north of the middle one.
-    const Ran json = runWorldy(folder, "probe world.chk 22 12 --source world.toml --json");
-    ASSERT_EQ(json.exitCode, 0) << json.errors;
-    const nlohmann::json source = nlohmann::json::parse(json.output)["source"];
+    const Ran probed = runWorldy(folder, "probe world.chk 22 12 --source world.toml --json");
+    ASSERT_EQ(probed.exitCode, 0) << probed.errors;
+    const nlohmann::json source = nlohmann::json::parse(probed.output)["source"];
     ASSERT_EQ(source["layers"].size(), 2u);
     EXPECT_EQ(source["layers"][0]["layer"], "Mesa");
     EXPECT_EQ(source["layers"][0]["height_m"], 3000);

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {
@@ -34,10 +34,10 @@ click "timeline/Save Chrome trace"; expect says Saved:
     expectQuiet(ran);
     const std::filesystem::path file = savedTrace(folder);
     ASSERT_FALSE(file.empty()) << ran.errors;
-    const auto json = nlohmann::json::parse(contentOf(file));
+    const auto report = nlohmann::json::parse(contentOf(file));
     std::map<std::string, int> counts;
     bool loadHasChunk = false;
-    for (const auto& event : json.at("traceEvents")) {
+    for (const auto& event : report.at("traceEvents")) {
         ++counts[event.at("name")];
         loadHasChunk |= event.at("name") == "decode" && event.at("args").contains("chunk");
     }
@@ -46,10 +46,10 @@ click "timeline/Save Chrome trace"; expect says Saved:
         EXPECT_GT(counts[name], 0) << name;
     EXPECT_TRUE(loadHasChunk);
     EXPECT_GT(counts["split"] + counts["merged"], 0);
-    if (json.at("otherData").contains("gpu_clock_error_us")) {
+    if (report.at("otherData").contains("gpu_clock_error_us")) {
         EXPECT_GT(counts["chunks"], 0);
     }
-    EXPECT_EQ(json.at("otherData").at("spans_dropped"), 0);
+    EXPECT_EQ(report.at("otherData").at("spans_dropped"), 0);
 }
 
 }  // namespace

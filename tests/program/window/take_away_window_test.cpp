@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "app/base/picture_file.h"
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {

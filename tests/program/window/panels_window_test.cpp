@@ -7,8 +7,8 @@
 
 #include "app/base/picture_file.h"
 #include "app/settings/screenshot.h"
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {

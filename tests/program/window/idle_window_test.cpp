@@ -1,8 +1,8 @@
 // The window draws only while something changes.
 #include <gtest/gtest.h>
 
-#include "tests/program/editor_window.h"
 #include "tests/program/small_planet.h"
+#include "tests/program/window/editor_window.h"
 
 namespace worldy {
 namespace {
