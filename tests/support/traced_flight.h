@@ -31,7 +31,10 @@ public:
     // Writes the trace.
     explicit TracedFlight(const std::filesystem::path& file) {
         std::array<char, 512> error{};
-        trace_ = lod_trace_open(file.string().c_str(), nullptr, error.data(), error.size());
+        lod_trace_options options{};
+        // Holds the whole flight, so that nothing is dropped while the writer thread waits for a core.
+        options.ring_bytes = 8 << 20;
+        trace_ = lod_trace_open(file.string().c_str(), &options, error.data(), error.size());
         if (!trace_) throw std::runtime_error(error.data());
         lod_trace_description description{};
         description.name = "made engine";
@@ -42,7 +45,9 @@ public:
         lod_trace_setting(trace_, LOD_TRACE_TAU, tauPx);
         lod_trace_setting(trace_, LOD_TRACE_HYSTERESIS, hysteresis);
         for (frame_ = 1; frame_ <= frames; ++frame_) fly();
+        const lod_trace_stats stats = lod_trace_get_stats(trace_);
         lod_trace_close(trace_);
+        if (stats.dropped > 0) throw std::runtime_error("the trace dropped events");
     }
 
     std::uint64_t planted() const { return planted_; }  // id of the node
