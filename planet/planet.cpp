@@ -91,6 +91,23 @@ Result<Room> roomFor(const PlanetShape& shape, std::uint64_t allChunks,
     return room;
 }
 
+// Returns a function that reads children and checks their heights too: on the loader's thread, where they are still in its
+// cache.
+LoadChildren checkingHeights(LoadChildren load, const PlanetShape& shape,
+                             std::shared_ptr<const ChunkFile> file) {
+    return
+        [load = std::move(load), shape, file = std::move(file)](
+            const ChunkId& parent, BlockLocation location, StepsView parentHeights) -> Result<SiblingBlock> {
+            TRY_ASSIGN(auto children, load(parent, location, parentHeights));
+            for (const ChunkData& child : children) {
+                TRY(checkHeights(shape, child).map_error([&](Error error) {
+                    return namingFile(file.get(), std::move(error));
+                }));
+            }
+            return children;
+        };
+}
+
 }  // namespace
 
 PlanetState::PlanetState(ChunkTree&& tree, std::uint32_t chunkSlots,
@@ -133,7 +150,8 @@ Result<std::unique_ptr<Planet>> Planet::open(PlanetSource source, const PagingSe
     state->normals.leafLevel = normalLevel;
     for (const Face face : allFaces) state->normals.roots[static_cast<std::size_t>(face)].id.face = face;
     state->beginNormals(room.normals, room.normalHeightBytes, room.problem);
-    BlockLoaders loaders{std::move(source.loadChildren), std::move(source.loadColours)};
+    BlockLoaders loaders{checkingHeights(std::move(source.loadChildren), source.shape, state->file),
+                         std::move(source.loadColours)};
     loaders.normals = [of = state->normalRoots.deriver()](const ChunkId& parent) {
         return of->childrenOf(parent);
     };

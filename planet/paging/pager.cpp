@@ -244,6 +244,8 @@ std::vector<PagingRequest> Pager::abandonReads() {
 
 std::vector<PagingRequest> Pager::giveUpReads() {
     std::vector<PagingRequest> givenUp;
+    for (; ownedLoads() > 0; ++nextHandedOver_)
+        givenUp.push_back(std::move(handedOver_[nextHandedOver_].request));
     for (FinishedLoad& load : finished_) givenUp.push_back(std::move(load.request));
     for (VirtualReading& reading : virtuallyFinished_) givenUp.push_back(std::move(reading.request));
     for (VirtualReading& reading : virtualReadings_) givenUp.push_back(std::move(reading.request));
@@ -370,32 +372,43 @@ std::optional<FinishedLoad> Pager::readFinished(Lock& lock) {
 }
 
 std::optional<FinishedLoad> Pager::takeFinished() {
-    Lock lock(mutex_);
-    if (time_ != PagingTime::Clock) return readFinished(lock);
-    if (finished_.empty()) return std::nullopt;
-    FinishedLoad load = std::move(finished_.front());
-    finished_.pop_front();
-    return load;
+    if (nextHandedOver_ == handedOver_.size()) {
+        Lock lock(mutex_);
+        if (time_ != PagingTime::Clock) return readFinished(lock);
+        handedOver_.clear();
+        nextHandedOver_ = 0;
+        handedOver_.swap(finished_);
+    }
+    if (handedOver_.empty()) return std::nullopt;
+    return std::move(handedOver_[nextHandedOver_++]);
+}
+
+std::size_t Pager::ownedLoads() const {
+    return handedOver_.size() - nextHandedOver_;
 }
 
 bool Pager::waitForFinished(Clock::time_point until, std::size_t count) {
     assert(count >= 1);
     Lock lock(mutex_);
     awaited_ = count;
+    ownedInWait_ = ownedLoads();
     loadFinished_.wait_until(lock, until, [this] { return hasEnoughFinished(); });
-    return !finished_.empty();
+    return !finished_.empty() || ownedLoads() > 0;
 }
 
 bool Pager::hasEnoughFinished() const {
-    if (finished_.size() >= awaited_) return true;
+    const std::size_t finished = ownedInWait_ + finished_.size();
+    if (finished >= awaited_) return true;
     if (mayTake()) return false;
     const PagerStatus status = statusLocked();
-    return status.atRest() || (status.finished > 0 && status.loading == 0);
+    return status.atRest() || (finished > 0 && status.loading == 0);
 }
 
 PagerStatus Pager::status() const {
     const std::lock_guard lock(mutex_);
-    return statusLocked();
+    PagerStatus status = statusLocked();
+    status.finished += static_cast<std::uint32_t>(ownedLoads());
+    return status;
 }
 
 PagerStatus Pager::statusLocked() const {

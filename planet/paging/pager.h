@@ -214,15 +214,23 @@ private:
     std::vector<PagingRequest> giveUpReads();
     std::optional<FinishedLoad> readFinished(Lock& lock);
     PagerStatus statusLocked() const;
+    std::size_t ownedLoads() const;
 
     const BlockLoaders load_;
+    // Finished loads that the owner's thread has taken over all at once, and the first that takeFinished() has not returned
+    // yet. With a lock for each, a loader would often find the mutex locked, and sleep. The two vectors of loads swap their
+    // memory, so that no thread frees what another one allocates: that would lock the other's heap.
+    std::vector<FinishedLoad> handedOver_;
+    std::size_t nextHandedOver_ = 0;
+
     mutable std::mutex mutex_;  // guards the members below, except the threads
     std::condition_variable_any workArrived_;
     std::condition_variable_any loadFinished_;
     std::condition_variable_any badDiskChanged_;
     PagingQueue queue_;
-    std::deque<FinishedLoad> finished_;
-    std::size_t awaited_ = 1;  // finished loads that the owner waits for
+    std::vector<FinishedLoad> finished_;
+    std::size_t awaited_ = 1;      // finished loads that the owner waits for
+    std::size_t ownedInWait_ = 0;  // of those, the ones that it owned when it began to wait
     std::size_t loadersWanted_ = 0;
     std::array<Loader, maxLoaderThreads> loaders_{};
     bool paused_ = false;

@@ -7,21 +7,25 @@
 
 namespace planet {
 
+PagingQueue::PagingQueue(const PagingQueue& other)
+    : pending_(other.pending_, &pool_), prefetches_(other.prefetches_), counters_(other.counters_) {
+    for (auto& [block, request] : pending_) order(request.type).emplace(placeOf(request), &request);
+}
+
 SubmitOutcome PagingQueue::submit(PagingRequest request) {
     assert(!std::isnan(request.priority));
-    const auto found = pending_.find(request.block());
-    if (found == pending_.end()) {
-        order(request.type).insert(placeOf(request));
-        prefetches_ += request.isPrefetch();
-        ++counters_.added[static_cast<std::size_t>(request.type)];
-        const BlockId block = request.block();
-        pending_.emplace(block, std::move(request));
+    const auto [found, isNew] = pending_.try_emplace(request.block());
+    PagingRequest& pending = found->second;
+    if (isNew) {
+        pending = std::move(request);
+        order(pending.type).emplace(placeOf(pending), &pending);
+        prefetches_ += pending.isPrefetch();
+        ++counters_.added[static_cast<std::size_t>(pending.type)];
         return SubmitOutcome::Added;
     }
-    PagingRequest& pending = found->second;
     if (pending.type != request.type) {
         ++counters_.cancelled[static_cast<std::size_t>(pending.type)];
-        take(request.block());
+        take(found);
         ++counters_.opposed;
         return SubmitOutcome::Opposed;
     }
@@ -51,22 +55,22 @@ void PagingQueue::merge(PagingRequest& pending, const PagingRequest& again) {
     pending.priority = priority;
     pending.urgency = urgency;
     prefetches_ += pending.isPrefetch();
-    node.value() = placeOf(pending);
+    node.key() = placeOf(pending);
     order(pending.type).insert(std::move(node));
 }
 
 const PagingRequest* PagingQueue::best(PagingType type) const {
-    return order(type).empty() ? nullptr : find(order(type).begin()->block);
+    return order(type).empty() ? nullptr : order(type).begin()->second;
 }
 
 const PagingRequest* PagingQueue::worst(PagingType type) const {
-    return order(type).empty() ? nullptr : find(order(type).rbegin()->block);
+    return order(type).empty() ? nullptr : order(type).rbegin()->second;
 }
 
 const PagingRequest* PagingQueue::worst(PagingType type, BlockKind kind) const {
     const auto found = std::find_if(order(type).rbegin(), order(type).rend(),
-                                    [&](const Place& place) { return place.block.kind == kind; });
-    return found == order(type).rend() ? nullptr : find(found->block);
+                                    [&](const auto& one) { return one.second->kind == kind; });
+    return found == order(type).rend() ? nullptr : found->second;
 }
 
 const PagingRequest* PagingQueue::find(const BlockId& block) const {
@@ -75,22 +79,23 @@ const PagingRequest* PagingQueue::find(const BlockId& block) const {
 }
 
 std::optional<PagingRequest> PagingQueue::popBest(PagingType type) {
-    if (order(type).empty()) return std::nullopt;
-    return pop(order(type).begin()->block);
+    const PagingRequest* first = best(type);
+    if (!first) return std::nullopt;
+    return pop(first->block());
 }
 
 std::optional<PagingRequest> PagingQueue::pop(BlockId block) {
-    const PagingRequest* found = find(block);
-    if (!found) return std::nullopt;
-    ++counters_.popped[static_cast<std::size_t>(found->type)];
-    return take(block);
+    const auto found = pending_.find(block);
+    if (found == pending_.end()) return std::nullopt;
+    ++counters_.popped[static_cast<std::size_t>(found->second.type)];
+    return take(found);
 }
 
 std::optional<PagingRequest> PagingQueue::popFirst(
     PagingType type, const std::function<std::uint64_t(const BlockId&)>& placeOf) {
     std::optional<std::pair<std::uint64_t, BlockId>> first;
-    for (const Place& place : order(type)) {
-        if (place.urgency != order(type).begin()->urgency) break;
+    for (const auto& [place, request] : order(type)) {
+        if (place.urgency != order(type).begin()->first.urgency) break;
         const std::pair here{placeOf(place.block), place.block};
         if (!first || here < *first) first = here;
     }
@@ -99,21 +104,21 @@ std::optional<PagingRequest> PagingQueue::popFirst(
 }
 
 std::optional<PagingRequest> PagingQueue::cancel(BlockId block) {
-    const PagingRequest* found = find(block);
-    if (!found) return std::nullopt;
+    const auto found = pending_.find(block);
+    if (found == pending_.end()) return std::nullopt;
     ++counters_.withdrawn;
-    ++counters_.cancelled[static_cast<std::size_t>(found->type)];
-    return take(block);
+    ++counters_.cancelled[static_cast<std::size_t>(found->second.type)];
+    return take(found);
 }
 
 std::vector<PagingRequest> PagingQueue::cancelNotRenewed(PagingType type, std::uint64_t sinceFrame) {
     std::vector<BlockId> stale;
-    for (const Place& place : order(type)) {
-        if (find(place.block)->renewedFrame < sinceFrame) stale.push_back(place.block);
+    for (const auto& [place, request] : order(type)) {
+        if (request->renewedFrame < sinceFrame) stale.push_back(place.block);
     }
     std::vector<PagingRequest> cancelled;
     cancelled.reserve(stale.size());
-    for (const BlockId& block : stale) cancelled.push_back(take(block));
+    for (const BlockId& block : stale) cancelled.push_back(take(pending_.find(block)));
     counters_.withdrawn += cancelled.size();
     counters_.cancelled[static_cast<std::size_t>(type)] += cancelled.size();
     return cancelled;
@@ -122,12 +127,11 @@ std::vector<PagingRequest> PagingQueue::cancelNotRenewed(PagingType type, std::u
 std::vector<PagingRequest> PagingQueue::sorted(PagingType type) const {
     std::vector<PagingRequest> requests;
     requests.reserve(order(type).size());
-    for (const Place& place : order(type)) requests.push_back(*find(place.block));
+    for (const auto& [place, request] : order(type)) requests.push_back(*request);
     return requests;
 }
 
-PagingRequest PagingQueue::take(BlockId block) {
-    const auto found = pending_.find(block);
+PagingRequest PagingQueue::take(Pending::iterator found) {
     assert(found != pending_.end());
     PagingRequest request = std::move(found->second);
     order(request.type).erase(placeOf(request));

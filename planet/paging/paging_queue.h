@@ -10,8 +10,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory_resource>
 #include <optional>
-#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -85,6 +86,10 @@ enum class SubmitOutcome {
 
 class PagingQueue {
 public:
+    PagingQueue() = default;
+    PagingQueue(const PagingQueue& other);
+    PagingQueue& operator=(const PagingQueue&) = delete;
+
     SubmitOutcome submit(PagingRequest request);
 
     // Return the request with the highest or lowest priority of a type; null if there is none. Valid until
@@ -126,15 +131,18 @@ private:
     static Place placeOf(const PagingRequest& request) {
         return {request.urgency, request.priority, request.block()};
     }
-    using Order = std::set<Place>;
+    using Pending = std::pmr::unordered_map<BlockId, PagingRequest>;
+    using Order = std::pmr::map<Place, PagingRequest*>;  // those in pending_
 
     const Order& order(PagingType type) const { return orders_[static_cast<std::size_t>(type)]; }
     Order& order(PagingType type) { return orders_[static_cast<std::size_t>(type)]; }
-    PagingRequest take(BlockId block);
+    PagingRequest take(Pending::iterator found);
     void merge(PagingRequest& pending, const PagingRequest& again);
 
-    std::unordered_map<BlockId, PagingRequest> pending_;
-    std::array<Order, pagingTypeCount> orders_;
+    // Loaders remove what the owner has added. Without a pool, they would free memory of its heap, and lock it.
+    std::pmr::unsynchronized_pool_resource pool_;
+    Pending pending_{&pool_};
+    std::array<Order, pagingTypeCount> orders_{Order(&pool_), Order(&pool_)};
     std::size_t prefetches_ = 0;
     PagingQueueCounters counters_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -51,75 +53,110 @@ struct Samples {
 };
 constexpr std::size_t middleSample = sampleCount / 2;
 
-// Computes one component of cubePoint for places on a face, with the same bits.
-PLANET_ALWAYS_INLINE void setCubeComponent(const std::array<double, paddedCount>& u,
-                                           const std::array<double, paddedCount>& v, double normal,
-                                           double uAxis, double vAxis, std::array<double, paddedCount>& out) {
-    for (std::size_t i = 0; i < paddedCount; ++i) out[i] = normal + u[i] * uAxis + v[i] * vAxis + 0.0;
+// Places on a face, row by row, and what sphereFromCube multiplies u and v by. The normal's component of a point of the
+// cube is 1 or -1, so u's factor depends on v alone, and v's on u alone.
+struct Places {
+    std::array<double, paddedCount> u, v, uFactor, vFactor;
+};
+
+double factorBeside(double other) {
+    const double squared = other * other;
+    return std::sqrt(1 - (squared + 1) / 2 + squared / 3);
 }
 
-// Computes sphereFromCube of cubePoint for places on a face, with the same bits.
-PLANET_CPU_CLONES void setDirections(const FaceAxes& axes, const std::array<double, paddedCount>& u,
-                                     const std::array<double, paddedCount>& v, Samples& samples) {
-    std::array<double, paddedCount> x, y, z;
-    setCubeComponent(u, v, axes.normal.x, axes.u.x, axes.v.x, x);
-    setCubeComponent(u, v, axes.normal.y, axes.u.y, axes.v.y, y);
-    setCubeComponent(u, v, axes.normal.z, axes.u.z, axes.v.z, z);
+// Computes sphereFromCube of cubePoint for places on a face, with the same bits: the axes have one component of 1 or -1,
+// and adding 0 leaves no negative zero.
+PLANET_CPU_CLONES void setDirections(const FaceAxes& axes, const Places& places, Samples& samples) {
+    std::array<double, paddedCount> normal, u, v;
     for (std::size_t i = 0; i < paddedCount; ++i) {
-        const double xx = x[i] * x[i], yy = y[i] * y[i], zz = z[i] * z[i];
-        samples.components[0][i] = x[i] * std::sqrt(1 - (yy + zz) / 2 + yy * zz / 3);
-        samples.components[1][i] = y[i] * std::sqrt(1 - (zz + xx) / 2 + zz * xx / 3);
-        samples.components[2][i] = z[i] * std::sqrt(1 - (xx + yy) / 2 + xx * yy / 3);
+        const double uu = places.u[i] * places.u[i], vv = places.v[i] * places.v[i];
+        normal[i] = std::sqrt(1 - (uu + vv) / 2 + uu * vv / 3);
+        u[i] = places.u[i] * places.uFactor[i];
+        v[i] = places.v[i] * places.vFactor[i];
+    }
+    for (int c = 0; c < 3; ++c) {
+        const double ofNormal = axes.normal[c], ofU = axes.u[c], ofV = axes.v[c];
+        std::array<double, paddedCount>& out = samples.components[static_cast<std::size_t>(c)];
+        for (std::size_t i = 0; i < paddedCount; ++i)
+            out[i] = normal[i] * ofNormal + u[i] * ofU + v[i] * ofV + 0.0;
     }
 }
 
 Samples sampleDirections(Face face, const FaceSquare& square) {
-    std::array<double, samplesPerSide> uOf{}, vOf{};
+    std::array<double, samplesPerSide> uOf{}, vOf{}, vFactorOf{}, uFactorOf{};
     for (std::size_t i = 0; i < samplesPerSide; ++i) {
         uOf[i] = square.u + square.side * static_cast<double>(i) / sampleCells;
         vOf[i] = square.v + square.side * static_cast<double>(i) / sampleCells;
+        uFactorOf[i] = factorBeside(vOf[i]);
+        vFactorOf[i] = factorBeside(uOf[i]);
     }
-    std::array<double, paddedCount> u, v;
+    Places places;
     for (std::size_t row = 0; row < samplesPerSide; ++row) {
-        std::ranges::copy(uOf, u.begin() + row * samplesPerSide);
-        std::fill_n(v.begin() + row * samplesPerSide, samplesPerSide, vOf[row]);
+        const std::size_t first = row * samplesPerSide;
+        std::ranges::copy(uOf, places.u.begin() + first);
+        std::ranges::copy(vFactorOf, places.vFactor.begin() + first);
+        std::fill_n(places.v.begin() + first, samplesPerSide, vOf[row]);
+        std::fill_n(places.uFactor.begin() + first, samplesPerSide, uFactorOf[row]);
     }
-    std::fill(u.begin() + sampleCount, u.end(), uOf.back());
-    std::fill(v.begin() + sampleCount, v.end(), vOf.back());
+    for (auto* values : {&places.u, &places.v, &places.uFactor, &places.vFactor})
+        std::fill(values->begin() + sampleCount, values->end(), (*values)[sampleCount - 1]);
     Samples samples;
-    setDirections(faceAxes(face), u, v, samples);
+    setDirections(faceAxes(face), places, samples);
     return samples;
 }
 
-// Finds the least and the largest component along an axis.
-PLANET_CPU_CLONES void setRange(const Samples& samples, const glm::dvec3& axis, double& least, double& most) {
-    const auto& [x, y, z] = samples.components;
-    std::array<double, groupSize> low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
+// A group in a vector, because GCC keeps the least of each of eight in no vector by itself.
+using Group = double __attribute__((vector_size(groupSize * sizeof(double))));
+
+PLANET_ALWAYS_INLINE void loadGroup(const std::array<double, paddedCount>& from, std::size_t first,
+                                    Group& group) {
+    std::memcpy(&group, from.data() + first, sizeof(group));
+}
+
+PLANET_ALWAYS_INLINE double leastIn(const Group& group) {
+    const double a = std::min(group[0], group[4]), b = std::min(group[1], group[5]);
+    const double c = std::min(group[2], group[6]), d = std::min(group[3], group[7]);
+    return std::min(std::min(a, b), std::min(c, d));
+}
+
+PLANET_ALWAYS_INLINE double mostIn(const Group& group) {
+    return -leastIn(-group);
+}
+
+// Finds the least and the largest component along each axis.
+PLANET_CPU_CLONES void setRanges(const Samples& samples, const std::array<glm::dvec3, 3>& axes,
+                                 glm::dvec3& least, glm::dvec3& most) {
+    std::array<Group, 3> low, high;
+    low.fill(Group{} + std::numeric_limits<double>::infinity());
+    high.fill(Group{} - std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < paddedCount; i += groupSize) {
-        for (std::size_t k = 0; k < groupSize; ++k) {
-            const double along = axis.x * x[i + k] + axis.y * y[i + k] + axis.z * z[i + k];
-            low[k] = along < low[k] ? along : low[k];
-            high[k] = along > high[k] ? along : high[k];
+        Group x, y, z;
+        loadGroup(samples.components[0], i, x);
+        loadGroup(samples.components[1], i, y);
+        loadGroup(samples.components[2], i, z);
+        for (std::size_t a = 0; a < axes.size(); ++a) {
+            const Group along = axes[a].x * x + axes[a].y * y + axes[a].z * z;
+            low[a] = along < low[a] ? along : low[a];
+            high[a] = along > high[a] ? along : high[a];
         }
     }
-    least = *std::ranges::min_element(low);
-    most = *std::ranges::max_element(high);
+    least = {leastIn(low[0]), leastIn(low[1]), leastIn(low[2])};
+    most = {mostIn(high[0]), mostIn(high[1]), mostIn(high[2])};
 }
 
 // Finds the largest squared distance from a point.
 PLANET_CPU_CLONES void setFarthest(const Samples& samples, const glm::dvec3& from, double& squared) {
-    const auto& [x, y, z] = samples.components;
-    std::array<double, groupSize> most{};
+    Group most{};
     for (std::size_t i = 0; i < paddedCount; i += groupSize) {
-        for (std::size_t k = 0; k < groupSize; ++k) {
-            const double dx = x[i + k] - from.x, dy = y[i + k] - from.y, dz = z[i + k] - from.z;
-            const double distance = dx * dx + dy * dy + dz * dz;
-            most[k] = distance > most[k] ? distance : most[k];
-        }
+        Group x, y, z;
+        loadGroup(samples.components[0], i, x);
+        loadGroup(samples.components[1], i, y);
+        loadGroup(samples.components[2], i, z);
+        const Group dx = x - from.x, dy = y - from.y, dz = z - from.z;
+        const Group distance = dx * dx + dy * dy + dz * dz;
+        most = distance > most ? distance : most;
     }
-    squared = *std::ranges::max_element(most);
+    squared = mostIn(most);
 }
 
 // Returns east along the middle row of the square, and north and up at its middle.
@@ -169,13 +206,10 @@ ChunkDirections chunkDirections(const ChunkId& id) {
     const double margin = marginBetweenSamples(square.side);
     ChunkDirections directions;
     directions.axes = localAxes(samples);
-    for (int a = 0; a < 3; ++a) {
-        double low = 0, high = 0;
-        setRange(samples, directions.axes[static_cast<std::size_t>(a)], low, high);
-        directions.low[a] = low - margin;
-        // No unit vector extends beyond 1 along an axis, so the top of the box needs no margin.
-        directions.high[a] = std::min(high + margin, 1 + boxRounding);
-    }
+    setRanges(samples, directions.axes, directions.low, directions.high);
+    directions.low -= margin;
+    // No unit vector extends beyond 1 along an axis, so the top of the box needs no margin.
+    directions.high = glm::min(directions.high + margin, glm::dvec3(1 + boxRounding));
     directions.cone = coneOf(samples, margin);
     return directions;
 }

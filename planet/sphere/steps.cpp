@@ -122,7 +122,10 @@ StepsView Steps::view() const {
 
 std::pair<std::int32_t, std::int32_t> lowestAndHighest(const StepsView& steps) {
     assert(!steps.empty());
-    if (const auto plain = steps.plain(); !plain.empty()) return extremesOf(plain.data(), plain.size());
+    if (const auto narrow = steps.narrow(); !narrow.empty()) {
+        const auto [lowest, highest] = extremesOf(narrow.data(), narrow.size());
+        return {steps.base() + steps.scale() * lowest, steps.base() + steps.scale() * highest};
+    }
     std::int32_t lowest = steps[0];
     std::int32_t highest = steps[0];
     for (std::size_t i = 1; i < steps.size(); ++i) {

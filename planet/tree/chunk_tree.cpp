@@ -23,37 +23,30 @@ struct Limits {
     float deltaTightM;
 };
 
+tl::unexpected<Error> invalid(const ChunkId& id, const std::string& what) {
+    return badInput(fmt::format("chunk {}: {}", toString(id), what));
+}
+
+// Checks a chunk without its heights.
 Result<void> checkChunk(const PlanetShape& shape, const ChunkData& data, const ChunkId& id,
                         const Limits& limits) {
-    const std::string name = toString(id);
     if (data.id != id)
-        return badInput(fmt::format("chunk {}: id: {} is wrong; expected {}", name, toString(data.id), name));
-    if (data.heights.size() != static_cast<std::size_t>(chunkVertexCount(shape))) {
-        return badInput(fmt::format("chunk {}: {} heights; expected {}", name, data.heights.size(),
-                                    chunkVertexCount(shape)));
-    }
+        return invalid(id, fmt::format("id: {} is wrong; expected {}", toString(data.id), toString(id)));
     if (!(data.deltaCM >= 0 && data.deltaCM <= limits.deltaCM)) {
-        return badInput(fmt::format("chunk {}: delta_c: {} m is out of range; expected [0, {}] m", name,
-                                    data.deltaCM, limits.deltaCM));
+        return invalid(id, fmt::format("delta_c: {} m is out of range; expected [0, {}] m", data.deltaCM,
+                                       limits.deltaCM));
     }
     const float mostTightM = std::min(data.deltaCM, limits.deltaTightM);
     if (!(data.deltaTightM >= 0 && data.deltaTightM <= mostTightM)) {
-        return badInput(fmt::format("chunk {}: tight metric: {} m is out of range; expected [0, {}] m", name,
-                                    data.deltaTightM, mostTightM));
+        return invalid(id, fmt::format("tight metric: {} m is out of range; expected [0, {}] m",
+                                       data.deltaTightM, mostTightM));
     }
     if (data.minStep > data.maxStep || data.minStep < limits.minStep || data.maxStep > limits.maxStep) {
-        return badInput(fmt::format("chunk {}: extremes: steps {} to {} are out of range; expected [{}, {}]",
-                                    name, data.minStep, data.maxStep, limits.minStep, limits.maxStep));
+        return invalid(id, fmt::format("extremes: steps {} to {} are out of range; expected [{}, {}]",
+                                       data.minStep, data.maxStep, limits.minStep, limits.maxStep));
     }
-    const auto [lowest, highest] = lowestAndHighest(data.heights);
-    if (lowest < data.minStep || highest > data.maxStep) {
-        return badInput(
-            fmt::format("chunk {}: heights: steps {} to {} are out of range; expected its extremes, [{}, {}]",
-                        name, lowest, highest, data.minStep, data.maxStep));
-    }
-    if (id.level >= deepestLevelOf(shape) && data.children.exists()) {
-        return badInput(fmt::format("chunk {}: has children below the finest level; expected none", name));
-    }
+    if (id.level >= deepestLevelOf(shape) && data.children.exists())
+        return invalid(id, "has children below the finest level; expected none");
     return {};
 }
 
@@ -213,6 +206,7 @@ Result<ChunkTree> makeChunkTree(const PlanetShape& shape, std::int32_t minStep, 
         constexpr float anyM = std::numeric_limits<float>::max();
         const Limits limits{minStep, maxStep, anyM, anyM};
         TRY(checkChunk(shape, roots[index], id, limits));
+        TRY(checkHeights(shape, roots[index]));
         tree.nodes.push_back(makeNode(tree, std::move(roots[index]), noNode, index));
     }
     tree.residentChunks = faceCount;
@@ -265,6 +259,19 @@ double curvatureErrorM(const PlanetShape& shape, int level) {
     constexpr double mostBent = 2.9;
     const double offset = std::ldexp(1.0, -level) / chunkCells(shape);  // half of a cell; a face is 2 wide
     return shape.radiusM * offset * offset * mostBent / 2;
+}
+
+Result<void> checkHeights(const PlanetShape& shape, const ChunkData& data) {
+    const auto expected = static_cast<std::size_t>(chunkVertexCount(shape));
+    if (data.heights.size() != expected)
+        return invalid(data.id, fmt::format("{} heights; expected {}", data.heights.size(), expected));
+    const auto [lowest, highest] = lowestAndHighest(data.heights);
+    if (lowest < data.minStep || highest > data.maxStep) {
+        return invalid(
+            data.id, fmt::format("heights: steps {} to {} are out of range; expected its extremes, [{}, {}]",
+                                 lowest, highest, data.minStep, data.maxStep));
+    }
+    return {};
 }
 
 Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,

@@ -103,14 +103,17 @@ std::vector<RegionEffect> regionEffects(const ChunkTree& tree, NodeIndex node);
 // level lacks and the middle of the edge or diagonal that replaces it.
 double curvatureErrorM(const PlanetShape& shape, int level);
 
-// Checks, before four chunks become the children of a node, what bounds and selection rely on: the ids and
-// the number of heights; heights within the chunk's range, and that range within the parent's; δc and the
-// tight metric no larger than the parent's, and the tight metric no larger than δc.
+// Checks what a chunk says of its heights: their number, and that they lie within its range. Any thread.
+Result<void> checkHeights(const PlanetShape& shape, const ChunkData& data);
+
+// Checks, before four chunks become the children of a node, what else bounds and selection rely on: the ids; a
+// range within the parent's; δc and the tight metric no larger than the parent's, and the tight metric no larger
+// than δc.
 Result<void> checkChildren(const ChunkTree& tree, NodeIndex parent,
                            const std::array<ChunkData, quadrantCount>& children);
 
 // Adds the four children of a node, in the given slots, and returns the first one. The children must be
-// Requested, or Absent if no queue is used, and must pass checkChildren.
+// Requested, or Absent if no queue is used, and must pass checkHeights and checkChildren.
 NodeIndex addChildren(ChunkTree& tree, NodeIndex parent, std::array<ChunkData, quadrantCount>&& children,
                       const std::array<std::uint32_t, quadrantCount>& slots);
 

@@ -41,7 +41,7 @@ void checkNode(const ChunkNode& node) {
         require(std::isfinite(node.bounds.box.centreM[axis]), "bounds are finite");
 }
 
-// Grows a tree as a planet does, from the chunks that checkChildren accepts. Returns false if there is no tree.
+// Grows a tree as a planet does, from the chunks that checkHeights and checkChildren accept. Returns false if there is no tree.
 bool growTree(const ChunkFile& file) {
     std::array<ChunkData, faceCount> roots;
     for (const Face face : allFaces) {
@@ -62,7 +62,11 @@ bool growTree(const ChunkFile& file) {
         --left;
         static_cast<void>(isRead(file.readEntries(node.id, node.children)));
         auto children = file.readChildren(node.id, node.children, *node.heights);
-        if (!isRead(children) || !isRead(checkChildren(*tree, at, *children))) continue;
+        if (!isRead(children) || !std::ranges::all_of(*children, [&](const ChunkData& child) {
+                return isRead(checkHeights(info.shape, child));
+            }))
+            continue;
+        if (!isRead(checkChildren(*tree, at, *children))) continue;
         addChildren(*tree, at, std::move(*children), {slot, slot + 1, slot + 2, slot + 3});
         slot += quadrantCount;
     }

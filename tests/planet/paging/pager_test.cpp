@@ -96,6 +96,38 @@ TEST(Pager, waitingForMoreLoadsThanThereAreEndsWithTheLastOne) {
     EXPECT_EQ(pager.status().finished, 3u);
 }
 
+// Loads three faces, and takes the first load.
+void loadThreeAndTakeOne(Pager& pager) {
+    for (const Face face : {Face::PosX, Face::NegX, Face::PosY})
+        submit(pager, rootRequest(face, -static_cast<double>(face)));
+    ASSERT_TRUE(pager.waitForFinished(muchLater(), 3));
+    ASSERT_TRUE(pager.takeFinished());
+    EXPECT_EQ(pager.status().finished, 2u);
+}
+
+TEST(Pager, finishedLoadsCountUntilTheyAreTaken) {
+    Pager pager({loadFake}, 1);
+    loadThreeAndTakeOne(pager);
+    EXPECT_TRUE(pager.waitForFinished(muchLater(), 2));
+    EXPECT_TRUE(pager.waitForFinished(muchLater(), 100));  // although no loader has anything to do
+    submit(pager, rootRequest(Face::NegY));
+    EXPECT_TRUE(pager.waitForFinished(muchLater(), 3));
+    EXPECT_EQ(pager.status().finished, 3u);
+    std::vector<Face> order;
+    while (const auto load = pager.takeFinished()) order.push_back(load->request.parent.face);
+    EXPECT_EQ(order.back(), Face::NegY);
+    EXPECT_EQ(order.size(), 3u);
+    EXPECT_TRUE(pager.status().idle());
+}
+
+TEST(Pager, abandonedReadsIncludeTheLoadsThatWereNotTaken) {
+    Pager pager({loadFake}, 1);
+    loadThreeAndTakeOne(pager);
+    EXPECT_EQ(pager.abandonReads().size(), 2u);
+    EXPECT_TRUE(pager.status().idle());
+    EXPECT_FALSE(pager.takeFinished());
+}
+
 TEST(Pager, SeveralLoadersReadAtOnce) {
     Gate gate;
     Pager pager({[&](const ChunkId& parent, BlockLocation location, StepsView heights) {

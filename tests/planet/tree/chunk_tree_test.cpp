@@ -116,35 +116,44 @@ const TreeDamage damages[] = {
     {"expected its extremes", [](ChunkData& chunk) { setHeight(chunk, 6, -32768); }},
 };
 
+// Checks all that a planet checks of a block.
+Result<void> checkBlock(const ChunkTree& tree, NodeIndex parent, const SiblingBlock& block) {
+    if (auto checked = checkChildren(tree, parent, block); !checked) return checked;
+    for (const ChunkData& child : block) {
+        if (auto checked = checkHeights(tree.shape, child); !checked) return checked;
+    }
+    return {};
+}
+
 TEST(ChunkTree, ChildrenThatWouldBreakItsPromisesAreRefused) {
     const ChunkTree tree = residentTree(fakePyramid(), 0);
     const SiblingBlock good = fakePyramid().childrenOf({Face::PosX, 0, 0, 0});
-    EXPECT_TRUE(checkChildren(tree, 0, good));
+    EXPECT_TRUE(checkBlock(tree, 0, good));
     for (const TreeDamage& damage : damages) {
         SiblingBlock bad = good;
         damage.apply(bad[2]);
-        const Result<void> checked = checkChildren(tree, 0, bad);
+        const Result<void> checked = checkBlock(tree, 0, bad);
         ASSERT_FALSE(checked) << damage.message;
         EXPECT_THAT(checked.error().message, HasSubstr(damage.message));
         EXPECT_THAT(checked.error().message, HasSubstr("x_pos/1/0/1"));
     }
     SiblingBlock coarser = good;
     coarser[1].deltaCM = std::nextafter(tree.nodes[0].deltaCM, 1e9f);
-    EXPECT_FALSE(checkChildren(tree, 0, coarser));
+    EXPECT_FALSE(checkBlock(tree, 0, coarser));
     SiblingBlock looser = good;
     looser[3].deltaCM = tree.nodes[0].deltaCM;
     looser[3].deltaTightM = std::nextafter(tree.nodes[0].deltaTightM, 1e9f);
     ASSERT_LE(looser[3].deltaTightM, looser[3].deltaCM);
-    EXPECT_FALSE(checkChildren(tree, 0, looser));
+    EXPECT_FALSE(checkBlock(tree, 0, looser));
 }
 
 TEST(ChunkTree, ChildrenBelowTheFinestLevelAreRefused) {
     const ChunkTree tree = residentTree(fakePyramid(), 3);
     const NodeIndex parent = findNode(tree, {Face::PosX, 3, 1, 1});
     SiblingBlock block = fakePyramid().childrenOf({Face::PosX, 3, 1, 1});
-    EXPECT_TRUE(checkChildren(tree, parent, block));
+    EXPECT_TRUE(checkBlock(tree, parent, block));
     block[0].children = {1000, 10};
-    EXPECT_FALSE(checkChildren(tree, parent, block));
+    EXPECT_FALSE(checkBlock(tree, parent, block));
 }
 
 TEST(ChunkTree, RootsThatWouldBreakItsPromisesAreRefused) {
@@ -370,7 +379,7 @@ TEST(ChunkTree, NodesAddedLaterAreExaggeratedToo) {
     setExaggeration(after, 6.5);
     for (NodeIndex i = 6; i < 6 + 24; ++i) {
         const SiblingBlock block = fakePyramid().childrenOf(after.nodes[i].id);
-        ASSERT_TRUE(checkChildren(after, i, block));
+        ASSERT_TRUE(checkBlock(after, i, block));
         const auto next = static_cast<std::uint32_t>(after.nodes.size());
         addChildren(after, i, SiblingBlock(block), {next, next + 1, next + 2, next + 3});
     }
