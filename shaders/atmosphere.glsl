@@ -38,8 +38,8 @@ float airThroughLowest(float lowestRadius) {
 // Returns the air mass for a ray that may dip below the horizontal: the air from its lowest point in both
 // directions, less the part behind its start.
 float airAlong(float height, float rise, float lowestRadius) {
-    if (rise >= 0.0) return airAbove(height, rise);
-    return airThroughLowest(lowestRadius) - airAbove(height, -rise);
+    float mass = airAbove(height, abs(rise));
+    return rise >= 0.0 ? mass : airThroughLowest(lowestRadius) - mass;
 }
 
 // Returns the transmittance of the sun's light at a height. sunRise: cosine of the sun to the zenith.

@@ -2,6 +2,8 @@
 
 in vec3 surface;
 in vec3 facePlace;
+in vec2 imagePlace;
+in vec3 aboveSea;
 in vec4 surfaceNormal;
 in vec3 sunLit;
 in vec3 skyLit;
@@ -9,9 +11,9 @@ in vec3 airLit;
 in vec4 groundArriving;
 in vec4 airArriving;
 in float steep;
-in vec2 gridCoordinate;
-in float onSkirt;
+in vec3 meshPlace;
 flat in float onFace;
+flat in float flooded;
 flat in vec4 tint;
 flat in float meshLevel;
 flat in ShadingFrame held;
@@ -78,13 +80,14 @@ Detail detailAt(vec3 position) {
 // Returns the image's colour and water. The lookup is shifted by a fraction of a texel, so that blobs get
 // ragged edges. On a face's edge it is shifted along the edge only, as on the next face.
 vec4 imageColour(Detail detail, float strength) {
-    vec2 place = facePlace.xy;
+    vec2 shift = vec2(0.0);
     if (switchDetail) {
-        vec2 inside = min(place, 1.0 - place) / (4.0 * shading.imageStep);
+        vec2 inside = min(facePlace.xy, 1.0 - facePlace.xy) / (4.0 * shading.imageStep);
         vec2 aside = alongFace(int(onFace + 0.5), detail.slope).yz;
-        place += aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * shading.imageStep);
+        shift = aside * clamp(inside, 0.0, 1.0) * (0.5 * strength * shading.imageStep);
     }
     if (switchTiles) {
+        vec2 place = facePlace.xy + shift;
         vec3 colour;
         if (switchClipmap) {
             colour = clipmapColours(place, onFace);
@@ -93,24 +96,32 @@ vec4 imageColour(Detail detail, float strength) {
         }
         return vec4(colour, waterOf(colour));
     }
-    // The centres of the outermost texels lie on the edges.
-    vec2 onImage = place * (1.0 - shading.imageStep) + 0.5 * shading.imageStep;
-    vec4 image = texture(colourImage, vec3(onImage, onFace));
+    vec4 image = texture(colourImage, vec3(imagePlace + shift, onFace));
     return vec4(image.rgb * image.rgb, image.a);
 }
 
-vec3 seaByDepth(float height) {
+// A height above the sea level.
+struct Above {
+    float m;
+    float earthM;  // in metres of a planet of the Earth's size
+    float ramp;    // 1 at the highest band of the built-in ramp
+};
+
+Above aboveHere() {
+    return Above(aboveSea.x, aboveSea.y, aboveSea.z);
+}
+
+vec3 seaByDepth(Above above) {
     vec3 shelf = vec3(0.022, 0.095, 0.135);
     vec3 open = vec3(0.008, 0.036, 0.085);
     vec3 deep = vec3(0.003, 0.014, 0.046);
-    float depth = max(-height, 0.0) * shading.perRampTopM;
-    return shelf + (open - shelf) * smoothRise(0.0, 0.22, depth) + (deep - open) * smoothRise(0.3, 1.0, depth);
+    return shelf + (open - shelf) * smoothRise(0.0, 0.22, -above.ramp) +
+           (deep - open) * smoothRise(0.3, 1.0, -above.ramp);
 }
 
-// Returns colours from lowland green to rock to snow; shading.perRampTopM is 1 / the height of the highest
-// band.
-vec3 landByHeight(float height, float latitudeSine, float steep) {
-    float h = max(height, 0.0) * shading.perRampTopM;
+// Returns colours from lowland green to rock to snow.
+vec3 landByHeight(Above above, float latitudeSine, float steep) {
+    float h = max(above.ramp, 0.0);
     float cold = latitudeSine * latitudeSine;
     float dry = 1.0 - smoothRise(0.10, 0.26, abs(abs(latitudeSine) - 0.40));
     vec3 low = mix(vec3(0.036, 0.092, 0.018), vec3(0.230, 0.165, 0.068), 0.7 * dry);
@@ -145,56 +156,55 @@ vec3 stopsAt(float height) {
     return root * root;
 }
 
-Material rampMaterial(vec3 up, float height, float steep, float below) {
+Material rampMaterial(vec3 up, Above above, float steep, float below) {
     if (switchRamp) {
-        vec3 stops = stopsAt(height);
-        vec3 albedo = mix(stops, seaByDepth(height), below * (1.0 - frame.rampColoursSea));
+        vec3 stops = stopsAt(above.m);
+        vec3 albedo = mix(stops, seaByDepth(above), below * (1.0 - frame.rampColoursSea));
         return Material(albedo, below, 0.0, sandyBed);
     }
-    vec3 land = landByHeight(height, up.z, steep);
+    vec3 land = landByHeight(above, up.z, steep);
     float ice = below * smoothRise(0.955, 0.985, abs(up.z));
-    vec3 sea = mix(seaByDepth(height), vec3(0.70, 0.76, 0.82), ice);
+    vec3 sea = mix(seaByDepth(above), vec3(0.70, 0.76, 0.82), ice);
     return Material(mix(land, sea, below), below * (1.0 - ice), 0.0, sandyBed);
 }
 
 // Returns whether the sea's surface is drawn here: over ground below the sea level, by the mesh. Water that
 // the image shows on higher ground has no depth to draw and keeps the image's colour.
 bool isUnderSea() {
-    return switchSeaSurface && facePlace.z < shading.seaLevelM;
+    return switchSeaSurface && aboveSea.x < 0.0;
 }
 
 // Returns 1 where the ground is at least as deep as the shore, 0 above the sea level. shoreM: depth of the
 // shore on the Earth, metres.
-float belowSea(float height, float shoreM) {
+float belowSea(Above above, float shoreM) {
     if (!switchSea) return 0.0;
-    return smoothRise(0.0, shoreM, -height * shading.earthRadii);
+    return smoothRise(0.0, shoreM, -above.earthM);
 }
 
 // Returns the material by the image. The image shows which low land is dry and which ground is water, but not
 // a raised sea. Where the sea's surface is drawn, the image's colour is that of the bed, because it shows how
 // shallows look.
-Material imageMaterial(float height, float below, Detail detail, float strength) {
+Material imageMaterial(Above above, float below, Detail detail, float strength) {
     vec4 image = imageColour(detail, strength);
-    float flooded = clamp(shading.seaLevelM * shading.earthRadii * (1.0 / 30.0), 0.0, 1.0);
     // The mesh's coast is coarser than the image's, and lakes may be deeper than the sea level. So the drawn
     // surface fades in with its depth in water that the image shows.
-    float deep = isUnderSea() ? belowSea(height, 30.0) : below;
-    float water = max(below * flooded, deep * image.a);
+    float deep = isUnderSea() ? belowSea(above, 30.0) : below;
+    float water = deep * image.a;
+    if (switchFlooded) water = max(water, below * flooded);
     vec3 shown = image.rgb * 1.2;
     if (isUnderSea()) return Material(shown, water, image.a, shown);
     // Mixes the image with the sea's colour by depth, and what the image shows with that.
     float byDepth = 0.8 - 0.4 * image.a;
-    vec3 albedo = image.rgb * (1.2 - water * (0.2 + byDepth)) + seaByDepth(height) * (water * byDepth);
+    vec3 albedo = image.rgb * (1.2 - water * (0.2 + byDepth)) + seaByDepth(above) * (water * byDepth);
     return Material(albedo, water, image.a, shown);
 }
 
-// Returns the material. height: above the sea level, metres.
-Material materialAt(vec3 up, float height, float steep, Detail detail, float strength) {
-    float below = belowSea(height, isUnderSea() ? 2.0 : 30.0);
-    if (!switchImage) return rampMaterial(up, height, steep, below);
-    Material image = imageMaterial(height, below, detail, strength);
+Material materialAt(vec3 up, Above above, float steep, Detail detail, float strength) {
+    float below = belowSea(above, isUnderSea() ? 2.0 : 30.0);
+    if (!switchImage) return rampMaterial(up, above, steep, below);
+    Material image = imageMaterial(above, below, detail, strength);
     if (!switchImageOverRamp) return image;
-    Material ramp = rampMaterial(up, height, steep, below);
+    Material ramp = rampMaterial(up, above, steep, below);
     float share = frame.imageOpacity;
     return Material(mix(ramp.albedo, image.albedo, share), mix(ramp.water, image.water, share),
                     share * image.shownWater, mix(ramp.bed, image.bed, share));
@@ -203,7 +213,7 @@ Material materialAt(vec3 up, float height, float steep, Detail detail, float str
 // Returns the coverage of the mesh's lines: one pixel wide along rows, columns and diagonals, antialiased at
 // any distance.
 float meshLine() {
-    vec3 at = vec3(gridCoordinate, gridCoordinate.x - gridCoordinate.y);
+    vec3 at = vec3(meshPlace.xy, meshPlace.x - meshPlace.y);
     vec3 width = fwidth(at);
     vec3 away = abs(at - floor(at + 0.5));
     vec3 cover = 1.0 - smoothstep(width * 0.3, width * 1.0, away);
@@ -217,8 +227,8 @@ float meshLine() {
 // Returns the distance to the chunk's border, pixels; the chunk beside it draws the other half of the line.
 // It is large if the chunk is only a few pixels wide, and along a skirt, where one coordinate is constant.
 float borderAwayPx() {
-    vec2 width = fwidth(gridCoordinate);
-    vec2 away = min(gridCoordinate, float(1 << frame.chunkCellsLog2) - gridCoordinate) / max(width, vec2(1e-9));
+    vec2 width = fwidth(meshPlace.xy);
+    vec2 away = min(meshPlace.xy, float(1 << frame.chunkCellsLog2) - meshPlace.xy) / max(width, vec2(1e-9));
     away += 1e3 * (1.0 - step(vec2(1e-5), width));
     float chunkPx = float(1 << frame.chunkCellsLog2) / max(width.x, width.y);
     return min(away.x, away.y) + 10.0 * (1.0 - smoothRise(3.0, 8.0, chunkPx));
@@ -274,21 +284,23 @@ vec3 lightByPixel() {
     Detail detail = noDetail();
     float rough = 0.0;
     float ragged = 0.0;
-    float height = facePlace.z - shading.seaLevelM;
+    Above above = aboveHere();
     if (switchDetail) {
         detail = detailAt(position);
         rough = between(shading.heightStepPxM * nearness) * (0.05 + 0.95 * surfaceNormal.w);
         ragged = between(shading.imageStepPxM * nearness);
-        height += 500.0 * rough * detail.height * step(0.0, height) / shading.earthRadii;
+        float raisedEarthM = 500.0 * rough * detail.height * step(0.0, above.m);
+        float raisedM = raisedEarthM / shading.earthRadii;
+        above = Above(above.m + raisedM, above.earthM + raisedEarthM, above.ramp + raisedM * shading.perRampTopM);
         vec3 tilt = rough * (detail.slope - up * dot(detail.slope, up));
         normal = normalize(normal - tilt * inversesqrt(1.0 + 1.5 * dot(tilt, tilt)));
     }
-    Material material = materialAt(up, height, steepness(normal, up), detail, ragged);
+    Material material = materialAt(up, above, steepness(normal, up), detail, ragged);
     if (switchDetail)
         material.albedo *= 1.0 + (0.35 * rough + 0.20 * ragged) * (1.0 - anyWater(material)) * detail.height;
     float glint = 0.0;
     if (switchLayers) {
-        Layered layered = layeredGround(position, up, bare, facePlace.z - shading.seaLevelM, material.albedo);
+        Layered layered = layeredGround(position, up, bare, aboveSea.x, material.albedo);
         float amount = layered.amount * (1.0 - anyWater(material));
         material.albedo = mix(material.albedo, layered.albedo, amount);
         vec3 tilt = layered.tilt - normal * dot(layered.tilt, normal);
@@ -306,23 +318,23 @@ vec3 lightByPixel() {
                  sunlight * (wet * seaGlint(facing, -ray) + glint);
     if (sea > 0.0)
         light = mix(light,
-                    seaLight(position, ray, up, facePlace.z - shading.seaLevelM, material.bed, sunlight, skylight), sea);
+                    seaLight(position, ray, up, aboveSea.x, material.bed, sunlight, skylight), sea);
     return throughAir(light, position, ray, up);
 }
 
 vec3 lightByVertex() {
     vec3 up = upAt(surface);
-    Material material = materialAt(up, facePlace.z - shading.seaLevelM, steep, noDetail(), 0.0);
+    Material material = materialAt(up, aboveHere(), steep, noDetail(), 0.0);
     vec3 reflected = material.albedo * mix(1.0, groundArriving.a, material.water) + material.water * airArriving.a;
     return inRange(groundArriving.rgb) * max(reflected, 0.0) + inRange(airArriving.rgb);
 }
 
 vec3 flatSurface() {
     vec3 up = upAt(surface);
-    Material material = materialAt(up, facePlace.z - shading.seaLevelM, 0.0, noDetail(), 0.0);
+    Material material = materialAt(up, aboveHere(), 0.0, noDetail(), 0.0);
     vec3 albedo = material.albedo;
     if (switchLayers) {
-        Layered layered = layeredGround(surface, up, groundNormal(), facePlace.z - shading.seaLevelM, albedo);
+        Layered layered = layeredGround(surface, up, groundNormal(), aboveSea.x, albedo);
         albedo = mix(albedo, layered.albedo, layered.amount * (1.0 - anyWater(material)));
     }
     // Layers may be brighter than a pixel can show, and marks are mixed with what it shows.
@@ -344,7 +356,7 @@ void main() {
     vec3 colour = switchLighting ? litSurface() : flatSurface();
     if (switchLayerPreview)
         colour = layerPreview(colour, surface, upAt(surface), groundNormal(),
-                              facePlace.z - shading.seaLevelM);
+                              aboveSea.x);
     // Tints carry measured values. They are applied to the finished picture, so that light, air and dither do
     // not change their colours.
     if (switchTint) colour = mix(colour, tint.rgb, tint.a);
@@ -353,6 +365,6 @@ void main() {
         colour = mix(colour * 0.35, lineColour, meshLine());
     }
     if (switchOutlines) colour = outlined(colour);
-    if (switchLoudSkirts && onSkirt > 0.0) colour = vec3(1.0, 0.0, 0.8);
+    if (switchLoudSkirts && meshPlace.z > 0.0) colour = vec3(1.0, 0.0, 0.8);
     fragment = vec4(colour, 1.0);
 }

@@ -18,6 +18,8 @@ uniform isampler2DArray heightPool;
 
 out vec3 surface;         // position relative to the eye
 out vec3 facePlace;       // [0, 1] along u and v; height, metres
+out vec2 imagePlace;      // the same in the colour image, whose outermost texels have their centres on the edges
+out vec3 aboveSea;        // height above the sea level: metres; metres of the Earth; 1 at the ramp's highest band
 out vec4 surfaceNormal;   // not unit length; roughness of the ground, [0, 1]
 out vec3 sunLit;          // the sun's light on the ground
 out vec3 skyLit;          // the sky's light on the ground
@@ -25,9 +27,9 @@ out vec3 airLit;          // the sun's light on the air before the ground
 out vec4 groundArriving;  // lit per vertex: light of white land at the eye; ratio of the sea's to it
 out vec4 airArriving;     // lit per vertex: light that the air scatters; ratio of the sea's glint to land
 out float steep;          // lit per vertex: [0, 1]
-out vec2 gridCoordinate;  // column and row, for the mesh's lines
-out float onSkirt;        // 0 on the ground, 1 at the skirt's lower end
+out vec3 meshPlace;       // column and row, for the mesh's lines; 0 on the ground, 1 at a skirt's lower end
 flat out float onFace;
+flat out float flooded;   // 1 if the sea level is raised by 30 m of the Earth or more
 flat out vec4 tint;
 flat out float meshLevel;  // level of the tiles whose texels are the mesh's vertices
 flat out ShadingFrame held;  // with switchHeldFrame
@@ -53,29 +55,18 @@ vec2 slope(ivec3 corner, ivec2 vertex, ivec2 axis, int last, int here, uint slot
            int apart) {
     int at = vertex.x * axis.x + vertex.y * axis.y;
     bool first = at == 0;
-    bool final = at == last;
-    uint slotBeside = first ? slotBefore : final ? slotAfter : noSlot;
-    bool oneSided = (first || final) && slotBeside == noSlot;
-    int stepBack = -apart;
-    int stepOn = apart;
-    ivec3 cornerBack = corner;
-    ivec3 cornerOn = corner;
-    if (oneSided && first) stepBack = 2 * apart;
-    if (oneSided && final) stepOn = -2 * apart;
-    if (!oneSided && first) {
-        cornerBack = slotCorner(slotBeside, last);
-        stepBack = last - apart;
-    }
-    if (!oneSided && final) {
-        cornerOn = slotCorner(slotBeside, last);
-        stepOn = apart - last;
-    }
-    int before = stepAt(cornerBack, vertex + axis * stepBack);
-    int after = stepAt(cornerOn, vertex + axis * stepOn);
-    int twice = !oneSided ? after - before
-                : first   ? 4 * after - 3 * here - before
-                          : 3 * here - 4 * before + after;
-    float steepest = oneSided ? 0.0 : float(max(abs(here - before), abs(after - here)));
+    bool border = first || at == last;
+    uint slotBeside = first ? slotBefore : slotAfter;
+    bool across = border && slotBeside != noSlot;
+    bool oneSided = border && slotBeside == noSlot;
+    // One vertex lies inside the chunk, the other one on the other side, or behind the first one if that is unknown.
+    int inward = at == last ? -1 : 1;
+    int beyond = across ? last - apart : oneSided ? 2 * apart : -apart;
+    ivec3 cornerBeyond = across ? slotCorner(slotBeside, last) : corner;
+    int inside = stepAt(corner, vertex + axis * (inward * apart));
+    int other = stepAt(cornerBeyond, vertex + axis * (inward * beyond));
+    int twice = inward * (oneSided ? 4 * inside - 3 * here - other : inside - other);
+    float steepest = oneSided ? 0.0 : float(max(abs(here - inside), abs(here - other)));
     return vec2(0.5 * float(twice), steepest) / float(apart);
 }
 
@@ -324,10 +315,13 @@ void main() {
 
     surface = position;
     facePlace = vec3(drawn.place * (0.5 * fineCell), height);
+    imagePlace = facePlace.xy * (1.0 - shading.imageStep) + 0.5 * shading.imageStep;
+    float aboveM = height - shading.seaLevelM;
+    aboveSea = vec3(aboveM, aboveM * shading.earthRadii, aboveM * shading.perRampTopM);
+    flooded = switchFlooded ? clamp(shading.seaLevelM * shading.earthRadii * (1.0 / 30.0), 0.0, 1.0) : 0.0;
     onFace = float(chunkFace);
     surfaceNormal = vec4(normal, rough);
-    gridCoordinate = vec2(gridVertex);
-    onSkirt = float(skirt);
+    meshPlace = vec3(gridVertex, skirt);
     tint = chunkTint;
     meshLevel = float(int(chunkLevel) + frame.chunkCellsLog2 - 8);
     gl_Position = frame.clipFromWorld * vec4(position, 1.0);

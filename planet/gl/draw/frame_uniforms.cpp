@@ -163,6 +163,7 @@ Switches switchesFor(const PlanetShape& shape, const View& view, const RenderSet
            when(tiles && colours.mipmapsInTiles, switchMipmapsInTiles) |
            when(rampSeen && !settings.ramp.empty(), switchRamp) |
            when(withImage && rampSeen, switchImageOverRamp) | when(settings.sea, switchSea) |
+           when(withImage && settings.sea && settings.seaLevelM > 0, switchFlooded) |
            when(isSeaSurfaceDrawn(settings, software), switchSeaSurface) | when(tinted, switchTint) |
            when(settings.wireframe, switchWireframe) | when(settings.outlines, switchOutlines) |
            when(settings.skirtPaint != SkirtPaint::AsGround, switchLoudSkirts) |

@@ -33,6 +33,7 @@ namespace planet::gl {
     SWITCH(switchLayers)         /* texture layers (layers.glsl) */                               \
     SWITCH(switchLayerPreview)   /* the weight of one layer over the picture */                   \
     SWITCH(switchSea)            /* ground below the sea level is sea */                          \
+    SWITCH(switchFlooded)        /* the sea level is above 0, where an image shows dry ground */  \
     SWITCH(switchSeaSurface)     /* the sea is drawn at its level, as water (sea.glsl) */         \
     SWITCH(switchTint)           /* each chunk has a tint */                                      \
     SWITCH(switchWireframe)      /* the mesh's lines over a dimmed surface */                     \
