@@ -59,6 +59,7 @@ struct Places {
     std::array<double, paddedCount> u, v, uFactor, vFactor;
 };
 
+// Returns the factor of u for a place's v, or the factor of v for its u.
 double factorBeside(double other) {
     const double squared = other * other;
     return std::sqrt(1 - (squared + 1) / 2 + squared / 3);
@@ -105,12 +106,18 @@ Samples sampleDirections(Face face, const FaceSquare& square) {
     return samples;
 }
 
-// A group in a vector, because GCC keeps the least of each of eight in no vector by itself.
+// Eight components in a vector: GCC does not vectorise a search for the least or the largest of each.
 using Group = double __attribute__((vector_size(groupSize * sizeof(double))));
 
-PLANET_ALWAYS_INLINE void loadGroup(const std::array<double, paddedCount>& from, std::size_t first,
-                                    Group& group) {
-    std::memcpy(&group, from.data() + first, sizeof(group));
+// Eight directions.
+struct DirectionGroup {
+    Group x, y, z;
+};
+
+PLANET_ALWAYS_INLINE void loadGroup(const Samples& samples, std::size_t first, DirectionGroup& group) {
+    std::memcpy(&group.x, samples.components[0].data() + first, sizeof(Group));
+    std::memcpy(&group.y, samples.components[1].data() + first, sizeof(Group));
+    std::memcpy(&group.z, samples.components[2].data() + first, sizeof(Group));
 }
 
 PLANET_ALWAYS_INLINE double leastIn(const Group& group) {
@@ -130,12 +137,10 @@ PLANET_CPU_CLONES void setRanges(const Samples& samples, const std::array<glm::d
     low.fill(Group{} + std::numeric_limits<double>::infinity());
     high.fill(Group{} - std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < paddedCount; i += groupSize) {
-        Group x, y, z;
-        loadGroup(samples.components[0], i, x);
-        loadGroup(samples.components[1], i, y);
-        loadGroup(samples.components[2], i, z);
+        DirectionGroup at;
+        loadGroup(samples, i, at);
         for (std::size_t a = 0; a < axes.size(); ++a) {
-            const Group along = axes[a].x * x + axes[a].y * y + axes[a].z * z;
+            const Group along = axes[a].x * at.x + axes[a].y * at.y + axes[a].z * at.z;
             low[a] = along < low[a] ? along : low[a];
             high[a] = along > high[a] ? along : high[a];
         }
@@ -148,11 +153,9 @@ PLANET_CPU_CLONES void setRanges(const Samples& samples, const std::array<glm::d
 PLANET_CPU_CLONES void setFarthest(const Samples& samples, const glm::dvec3& from, double& squared) {
     Group most{};
     for (std::size_t i = 0; i < paddedCount; i += groupSize) {
-        Group x, y, z;
-        loadGroup(samples.components[0], i, x);
-        loadGroup(samples.components[1], i, y);
-        loadGroup(samples.components[2], i, z);
-        const Group dx = x - from.x, dy = y - from.y, dz = z - from.z;
+        DirectionGroup at;
+        loadGroup(samples, i, at);
+        const Group dx = at.x - from.x, dy = at.y - from.y, dz = at.z - from.z;
         const Group distance = dx * dx + dy * dy + dz * dz;
         most = distance > most ? distance : most;
     }
