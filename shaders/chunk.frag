@@ -355,8 +355,7 @@ void main() {
     else shading = frame.shading;
     vec3 colour = switchLighting ? litSurface() : flatSurface();
     if (switchLayerPreview)
-        colour = layerPreview(colour, surface, upAt(surface), groundNormal(),
-                              aboveSea.x);
+        colour = layerPreview(colour, surface, upAt(surface), groundNormal(), aboveSea.x);
     // Tints carry measured values. They are applied to the finished picture, so that light, air and dither do
     // not change their colours.
     if (switchTint) colour = mix(colour, tint.rgb, tint.a);

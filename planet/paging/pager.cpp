@@ -253,6 +253,8 @@ std::vector<PagingRequest> Pager::giveUpReads() {
         if (loader.reading) givenUp.push_back(std::move(loader.reading->request));
         loader.reading.reset();
     }
+    handedOver_.clear();
+    nextHandedOver_ = 0;
     finished_.clear();
     virtuallyFinished_.clear();
     virtualReadings_.clear();
